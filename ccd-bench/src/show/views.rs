@@ -4,7 +4,7 @@ use crate::method::first_contact;
 use crate::scene::Scene;
 use anyhow::Result;
 use ccd_core::{Outcome, Settings};
-use ccd_tables::courses::Movements;
+use ccd_tables::movements::Movements;
 use ccd_tables::results::ResultRow;
 use ccd_view::{Animation, AnimationGroup, Meshes};
 use rigid_ccd::Question;

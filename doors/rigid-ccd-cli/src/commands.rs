@@ -1,4 +1,4 @@
-//! The command line: a subcommand each has a file, and a folder of its own if it needs more.
+//! The command line. Each subcommand has a file, and a folder if it needs more files.
 
 mod acm;
 mod check;
@@ -66,9 +66,9 @@ enum Command {
     Scene(SceneCommandArgs),
     /// Certify edges or paths of a robot: free, first contact, or least distance
     Edges(Box<EdgesArgs>),
-    /// Prove where a mechanism keeps a clearance, over a joint or along a path
+    /// Prove where a mechanism keeps a clearance, over the range of a joint or along a path
     Clearance(Box<ClearanceArgs>),
-    /// Decide which pairs of a robot's links can touch, and write those that need no check as SRDF
+    /// Decide which pairs of a robot's links can touch, and write an SRDF that disables the pairs without need of a check
     Acm(Box<AcmArgs>),
     /// Ask recorded questions about a robot again, and say whether the recorded answers hold
     Replay(Box<ReplayArgs>),
@@ -84,14 +84,16 @@ enum Command {
 
 /// Parses the command line of this process, and runs the subcommand.
 pub fn main() -> ExitCode {
-    let given = Cli::command().get_matches();
-    let cli = Cli::from_arg_matches(&given).unwrap_or_else(|error| error.exit());
-    let of_command = given.subcommand().map_or(&given, |(_, options)| options);
+    let matches = Cli::command().get_matches();
+    let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    let command_matches = matches
+        .subcommand()
+        .map_or(&matches, |(_, options)| options);
     print_error_and_get_exit_code(match cli.command {
-        Command::Query(args) => query::run(&args, of_command),
+        Command::Query(args) => query::run(&args, command_matches),
         Command::View(args) => view::run(&args),
         Command::Scene(args) => scene::run(&args),
-        Command::Edges(args) => edges::run(&args, of_command),
+        Command::Edges(args) => edges::run(&args, command_matches),
         Command::Clearance(args) => clearance::run(&args),
         Command::Acm(args) => acm::run(&args),
         Command::Replay(args) => replay::run(&args),
@@ -103,7 +105,7 @@ pub fn main() -> ExitCode {
 }
 
 /// Returns the exit code of a run, and prints its error, if there is one. The code is 0 for success, 1 for results that
-/// cannot be written, 2 for bad input, and 3 for what is not proven.
+/// cannot be written, 2 for bad input, and 3 if something is not proven.
 pub fn print_error_and_get_exit_code(outcome: anyhow::Result<RunOutcome>) -> ExitCode {
     match outcome {
         Ok(RunOutcome::AllAnswered) => ExitCode::SUCCESS,
@@ -111,12 +113,18 @@ pub fn print_error_and_get_exit_code(outcome: anyhow::Result<RunOutcome>) -> Exi
         Ok(RunOutcome::SomeRowsUnproven) => ExitCode::from(3),
         Err(error) => match error.downcast_ref::<OutputError>() {
             // The reader closed the pipe, which is not a failure.
-            Some(failed) if failed.source.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
-            failed => {
+            Some(output_error) if output_error.source.kind() == io::ErrorKind::BrokenPipe => {
+                ExitCode::SUCCESS
+            }
+            output_error => {
                 print_error(&message_with_causes(&error));
                 // Another run holds the output, so this run must not start.
-                let busy = |f: &OutputError| f.source.kind() == io::ErrorKind::ResourceBusy;
-                ExitCode::from(if failed.is_none_or(busy) { 2 } else { 1 })
+                let is_busy = |f: &OutputError| f.source.kind() == io::ErrorKind::ResourceBusy;
+                ExitCode::from(if output_error.is_none_or(is_busy) {
+                    2
+                } else {
+                    1
+                })
             }
         },
     }

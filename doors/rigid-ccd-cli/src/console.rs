@@ -1,4 +1,4 @@
-//! What a run tells its user: messages, progress, and how it ended.
+//! Messages, progress, and the outcome of a run.
 
 pub(crate) mod causes;
 pub(crate) mod interruption;
@@ -13,13 +13,13 @@ use std::fmt::Display;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// The outcome of a run that wrote all its output; of two, the greater one decides the exit code.
+/// The outcome of a run that wrote all its output. Of two outcomes, the greater one decides the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum RunOutcome {
     /// Every row has an answer.
     AllAnswered,
-    /// Every row has an answer, and some are not proven: to be `free` or `kept` with `--check`, to keep a clearance that is
-    /// required, or by a proof that holds. Or a signal ended the search about pairs of links.
+    /// Every row has an answer, but something is not proven. With `--check` a row is not `free` or `kept`, a required
+    /// clearance is violated or unverified, a proof does not hold, or a signal ended the search for link contacts.
     SomeRowsUnproven,
     /// Some rows could not be read, answered or drawn; all others are done.
     SomeRowsBad,

@@ -6,9 +6,9 @@ pub(crate) mod table;
 
 use crate::files::output::{JOURNAL_EXTENSION, is_dash, is_standard_output};
 use anyhow::{Context, Result, anyhow, bail};
-use ccd_file::{PARTIAL_EXTENSION, resolve_links};
-use ccd_tables::courses::MovementRows;
+use ccd_file::{PARTIAL_EXTENSION, folder_to_open, resolve_links};
 use ccd_tables::motions::MotionRows;
+use ccd_tables::movements::MovementRows;
 use ccd_tables::paths::Grouping;
 use ccd_tables::table_records::TableRecords;
 use std::fs::{self, File};
@@ -26,16 +26,42 @@ pub fn refuse_overwriting_input(
     if is_same_file(source, target) {
         bail!("{written} would overwrite the file of {read}; give {written} another file");
     }
-    let end = resolve_links(target).unwrap_or_else(|_| target.to_owned());
+    let target_file = resolve_links(target).unwrap_or_else(|_| target.to_owned());
     for ending in [PARTIAL_EXTENSION, JOURNAL_EXTENSION] {
-        let mut name = end.clone().into_os_string();
+        let mut name = target_file.clone().into_os_string();
         name.push(ending);
-        let pending = PathBuf::from(name);
-        if is_same_file(source, &pending) {
-            let pending = pending.display();
+        let temporary_file = PathBuf::from(name);
+        if is_same_file(source, &temporary_file) {
+            let temporary_file = temporary_file.display();
             bail!(
-                "{written} would overwrite {pending}, the file of {read}; give {written} another file"
+                "{written} would overwrite {temporary_file}, the file of {read}; give {written} another file"
             );
+        }
+    }
+    Ok(())
+}
+
+/// Returns an error if an output would overwrite an input or another output, or if two outputs are standard output. Each
+/// file comes with the option that names it.
+pub(crate) fn refuse_shared_files<'p>(
+    inputs: impl IntoIterator<Item = (&'static str, &'p Path)>,
+    outputs: &[(&str, &Path)],
+) -> Result<()> {
+    for input in inputs {
+        for &output in outputs {
+            refuse_overwriting_input(input, output)?;
+        }
+    }
+    for (k, &output) in outputs.iter().enumerate() {
+        for &other in &outputs[..k] {
+            if is_standard_output(output.1) && is_standard_output(other.1) {
+                let (option, other_option) = (output.0, other.0);
+                bail!(
+                    "{option} - and {other_option} - are both standard output; give one of them a file"
+                );
+            }
+            refuse_overwriting_input(other, output)?;
+            refuse_overwriting_input(output, other)?;
         }
     }
     Ok(())
@@ -66,14 +92,14 @@ pub(super) fn open_table(option: &str, path: &Path) -> Result<(TableRecords, Opt
         let records = TableRecords::from_stream(io::stdin().lock()).with_context(name)?;
         return Ok((records, None));
     }
-    let (about, file) = File::open(path)
+    let (metadata, file) = File::open(path)
         .and_then(|file| Ok((file.metadata()?, file)))
         .map_err(|error| anyhow!("{error}; {advice}"))
         .with_context(name)?;
-    if about.is_dir() {
+    if metadata.is_dir() {
         bail!("{}: is a folder; {advice}", name());
     }
-    let length = about.is_file().then_some(about.len());
+    let length = metadata.is_file().then_some(metadata.len());
     let records = TableRecords::from_file(file).with_context(name)?;
     Ok((records, length))
 }
@@ -100,13 +126,10 @@ pub fn is_same_file(a: &Path, b: &Path) -> bool {
 }
 
 fn real_path(path: &Path) -> Option<PathBuf> {
-    let missing = || {
+    let path_of_missing_file = || {
         let path = resolve_links(path).ok()?;
-        let folder = match path.parent()? {
-            here if here.as_os_str().is_empty() => Path::new("."),
-            folder => folder,
-        };
-        Some(fs::canonicalize(folder).ok()?.join(path.file_name()?))
+        let folder = fs::canonicalize(folder_to_open(path.parent()?)).ok()?;
+        Some(folder.join(path.file_name()?))
     };
-    fs::canonicalize(path).ok().or_else(missing)
+    fs::canonicalize(path).ok().or_else(path_of_missing_file)
 }

@@ -1,17 +1,17 @@
 //! The command `ccd`: options, files, progress and exit codes.
 //!
-//! | folder | what |
+//! | folder | content |
 //! |---|---|
-//! | `commands` | a subcommand each |
+//! | `commands` | the subcommands, one file each |
 //! | `options` | values that options take |
 //! | `bodies` | bodies and scenes, as options and tables describe them |
 //! | `robots` | robots, their cells and paths |
 //! | `rows` | rows answered one by one: resumed, counted, certified, timed |
 //! | `picture` | answers drawn as a page |
-//! | `files` | what is read and written |
+//! | `files` | input tables and outputs |
 //! | `console` | messages, progress, and how a run ends |
 //!
-//! A library only because `ccd-bench` shares it; no stable interface. Depend on `rigid-ccd` instead.
+//! This is a library only because `ccd-bench` shares it. Its interface is not stable: depend on `rigid-ccd` instead.
 
 mod bodies;
 mod commands;

@@ -1,26 +1,26 @@
 //! Converts answers to the views of an HTML page, which `ccd-view` writes.
 //!
-//! Public only because the pages of `ccd-bench` share it; no stable interface.
+//! The module is public only because the pages of `ccd-bench` share it. Its interface is not stable.
 
-mod course;
 mod drawn;
 mod gap;
 mod scene;
+mod shown_motions;
 #[cfg(test)]
 mod tests;
 mod verdict;
 
-pub use ccd_view::{AnimationGroup, Page, PageError};
-pub use course::shown_motions;
 pub use drawn::drawn_mesh;
 pub use gap::{GapOverTime, measure_gap_over_time};
-pub(crate) use scene::{DrawnBody, scene_verdict, scene_view};
+pub(crate) use scene::{DrawnBody, FIXED_COLOR, numbered_body_color, scene_verdict, scene_view};
+pub use shown_motions::shown_motions;
 pub use verdict::{QueryContext, TimeMeaning};
 
+use anyhow::{Result, bail};
 use ccd_core::glam::DVec3;
-use ccd_core::{Body, InputError, Pose};
+use ccd_core::{Body, Pose};
 use ccd_tables::batch::BodyPair;
-use ccd_tables::courses::Movements;
+use ccd_tables::movements::Movements;
 use ccd_tables::results::{ResultRow, Status};
 use ccd_view::{Animation, Meshes, ShownBody, ShownContact};
 use drawn::feature_corners;
@@ -34,68 +34,38 @@ pub struct Painter<'a> {
     bodies: BodyPair<'a>,
     query_context: QueryContext,
     meshes: Meshes,
-    mesh_index_by_body: [usize; 2],
+    mesh_indices: [usize; 2],
     solver: Solver,
 }
 
-/// The error of a row that cannot be drawn.
-#[derive(Debug, thiserror::Error)]
-pub enum ViewError {
-    /// The motions of the row are out of range.
-    #[error(transparent)]
-    Input(#[from] InputError),
-    /// The bodies are farther apart than the row says, so the row is about other bodies or other motions.
-    #[error(
-        "at {time} the bodies are at least {distance_lower_bound} apart, but the row says at most {reported_distance_upper}: it is the answer about \
-         other bodies, or other motions"
-    )]
-    BodiesMismatch {
-        /// The time at which the distances are compared.
-        time: f64,
-        /// A lower bound of the distance of the given bodies at that time.
-        distance_lower_bound: f64,
-        /// The upper bound of the distance according to the row.
-        reported_distance_upper: f64,
-    },
-}
-
 impl<'a> Painter<'a> {
-    /// Creates a painter for answers about two bodies; `asked` describes the query of the answers.
-    pub fn new(bodies: BodyPair<'a>, asked: QueryContext) -> Self {
+    /// Creates a painter for answers about two bodies to the queries that `query_context` describes.
+    pub fn new(bodies: BodyPair<'a>, query_context: QueryContext) -> Self {
         let mut meshes = Meshes::default();
         let numbers = [bodies.a, bodies.b].map(|body| meshes.add(&drawn_mesh(body)));
         Painter {
             bodies,
-            query_context: asked,
+            query_context,
             meshes,
-            mesh_index_by_body: numbers,
+            mesh_indices: numbers,
             solver: Solver::new(),
         }
     }
 
-    /// Makes a page of the given views, with the meshes of both bodies.
-    pub fn page<'t>(&self, title: &'t str, views: Vec<Animation>) -> Page<'t> {
-        let name = String::new();
-        Page {
-            title,
-            groups: vec![AnimationGroup { name, views }],
-            meshes: self.meshes.clone(),
-        }
+    /// Returns the meshes of both bodies, which all views of this painter draw.
+    pub(crate) fn meshes(&self) -> &Meshes {
+        &self.meshes
     }
 
     /// Makes the view of a row: its motions, its contact, and the distance over time.
     ///
     /// # Errors
-    /// [`ViewError`].
-    pub fn animate_row(
-        &mut self,
-        query: &Movements,
-        row: &ResultRow,
-    ) -> Result<Animation, ViewError> {
-        let start = query.start_time();
-        let duration = query.duration();
+    /// The motions of the row are out of range, or the row is from a table about other bodies or motions.
+    pub fn animate_row(&mut self, movements: &Movements, row: &ResultRow) -> Result<Animation> {
+        let start = movements.start_time();
+        let duration = movements.duration();
         let time = row.time.map(|time| (time - start).clamp(0.0, duration));
-        let [a, b] = query.poses_at(time.unwrap_or(0.0))?;
+        let [a, b] = movements.poses_at(time.unwrap_or(0.0))?;
         if self.query_context.time_meaning == TimeMeaning::TableTime {
             self.check_distance(row, [a, b])?;
         }
@@ -117,16 +87,20 @@ impl<'a> Painter<'a> {
                 }
                 _ => 0.0,
             };
-            let found = measure_gap_over_time(&mut self.solver, self.bodies, query, floor)?;
-            view.ghost_times = found.ghost_times(duration);
-            proven = found.least_proven_gap();
-            nearest = found.least_distance_time();
-            view.gap = Some(found.gap);
+            let gap_over_time =
+                measure_gap_over_time(&mut self.solver, self.bodies, movements, floor)?;
+            view.ghost_times = gap_over_time.ghost_times(duration);
+            proven = gap_over_time.least_proven_gap();
+            nearest = gap_over_time.least_distance_time();
+            view.gap = Some(gap_over_time.gap);
         }
         view.verdict = verdict::verdict(row, self.query_context, start + duration, proven);
-        let looks = self.mesh_index_by_body.into_iter().zip(BODY_COLORS);
-        let shown = ["A", "B"].iter().zip(looks).zip(shown_motions(query)?);
-        view.bodies = shown
+        let meshes_and_colors = self.mesh_indices.into_iter().zip(BODY_COLORS);
+        let bodies = ["A", "B"]
+            .iter()
+            .zip(meshes_and_colors)
+            .zip(shown_motions(movements)?);
+        view.bodies = bodies
             .map(|((name, (mesh, color)), motion)| ShownBody::new(name, mesh, color, motion))
             .collect();
         Ok(Animation {
@@ -136,8 +110,8 @@ impl<'a> Painter<'a> {
                 Status::Free => nearest,
                 _ => time.unwrap_or(nearest),
             },
-            origin: (query.poses_at(0.0)?[1]
-                .transform_point(self.meshes.middle(self.mesh_index_by_body[1])))
+            origin: (movements.poses_at(0.0)?[1]
+                .transform_point(self.meshes.middle(self.mesh_indices[1])))
             .to_array(),
             contacts: contact.into_iter().collect(),
             ..view
@@ -145,19 +119,18 @@ impl<'a> Painter<'a> {
     }
 
     /// Returns an error if the bodies are farther apart than the row of a table of results says.
-    fn check_distance(&mut self, row: &ResultRow, [a, b]: [Pose; 2]) -> Result<(), ViewError> {
-        let (Some(time), Some(told)) = (row.time, row.distance_upper) else {
+    fn check_distance(&mut self, row: &ResultRow, [a, b]: [Pose; 2]) -> Result<()> {
+        let (Some(time), Some(reported_upper)) = (row.time, row.distance_upper) else {
             return Ok(());
         };
-        let found = (self.solver).distance((self.bodies.a, a), (self.bodies.b, b))?;
-        let measured = found.outcome.lower();
+        let answer = (self.solver).distance((self.bodies.a, a), (self.bodies.b, b))?;
+        let lower = answer.outcome.lower();
         // The table rounds the poses.
-        if measured > told + found.tolerance {
-            return Err(ViewError::BodiesMismatch {
-                time,
-                distance_lower_bound: measured,
-                reported_distance_upper: told,
-            });
+        if lower > reported_upper + answer.tolerance {
+            bail!(
+                "at {time} the bodies are at least {lower} apart, but the row says at most {reported_upper}: the row is \
+                 about other bodies, or about other motions"
+            );
         }
         Ok(())
     }
@@ -169,9 +142,9 @@ impl<'a> Painter<'a> {
             Some(DVec3::new(x?, y?, z?))
         };
         let witnesses = [point(row.witness_a)?, point(row.witness_b)?];
-        let feature_corners = |k: usize, body: &Body, feature: &Option<String>| {
+        let feature_corners = |side: usize, body: &Body, feature: &Option<String>| {
             let feature = feature.as_deref().unwrap_or_default();
-            feature_corners(body, &poses[k], feature, witnesses[k])
+            feature_corners(body, &poses[side], feature, witnesses[side])
         };
         Some(ShownContact {
             time,

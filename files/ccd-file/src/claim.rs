@@ -11,8 +11,8 @@ pub const PARTIAL_EXTENSION: &str = ".partial";
 /// A file that only this process writes, under a temporary name in the folder of its target.
 ///
 /// # Guarantee
-/// Of several claims of one file, under any path, only one succeeds. The operating system releases it when the process
-/// ends, however it ends. On a file system without locks all succeed.
+/// If several processes claim a file, under any path, only one claim succeeds. The operating system releases a claim
+/// when its process ends in any way. On a file system without locks all claims succeed.
 ///
 /// A dropped claim removes its file, unless the file was not empty when claimed, or is [kept](Claim::keep_on_drop).
 #[derive(Debug)]
@@ -49,21 +49,21 @@ impl Claim {
             }
             // Another process may have renamed the file before it was locked.
             if leads_to_file(&file, &partial)? {
-                let about = file.metadata()?;
-                if !about.is_file() {
+                let metadata = file.metadata()?;
+                if !metadata.is_file() {
                     let problem = format!("{} is no file", partial.display());
                     return Err(io::Error::new(io::ErrorKind::AlreadyExists, problem));
                 }
-                let left_length = about.len();
+                let initial_length = metadata.len();
                 let temp_file = TempFile {
                     file,
                     path: partial,
                     target,
-                    is_kept_on_drop: left_length > 0,
+                    is_kept_on_drop: initial_length > 0,
                 };
                 return Ok(Claim {
                     temp_file,
-                    initial_length: left_length,
+                    initial_length,
                 });
             }
         }

@@ -23,11 +23,13 @@ impl Destination {
     /// The path is a folder, a read-only file, or in a folder that does not exist.
     pub fn resolve(path: &Path) -> io::Result<Self> {
         match fs::metadata(path) {
-            Ok(there) if there.is_dir() => {
+            Ok(metadata) if metadata.is_dir() => {
                 let problem = "it is a folder; give a file name";
                 Err(io::Error::new(io::ErrorKind::IsADirectory, problem))
             }
-            Ok(there) if !there.is_file() || is_descriptor_path(path) => Ok(Destination::Stream),
+            Ok(metadata) if !metadata.is_file() || is_descriptor_path(path) => {
+                Ok(Destination::Stream)
+            }
             Ok(_) => {
                 // A file that must not be written must not be replaced either.
                 File::options().write(true).open(path)?;
@@ -56,7 +58,7 @@ pub fn check_parent_folder(path: &Path) -> io::Result<()> {
         return Ok(());
     };
     let (kind, problem) = match fs::metadata(folder) {
-        Ok(there) if there.is_dir() => return Ok(()),
+        Ok(metadata) if metadata.is_dir() => return Ok(()),
         Ok(_) => (io::ErrorKind::NotADirectory, "is not a folder"),
         Err(error) if error.kind() == io::ErrorKind::NotFound => (
             error.kind(),
@@ -70,6 +72,15 @@ pub fn check_parent_folder(path: &Path) -> io::Result<()> {
     ))
 }
 
+/// Returns a folder as a path to open: the parent of a bare file name is empty, and means the current folder `.`.
+pub fn folder_to_open(folder: &Path) -> &Path {
+    if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    }
+}
+
 /// Opens a path such as `/dev/stdout` for appending, so that a file behind it keeps its content.
 pub(crate) fn open_stream(path: &Path) -> io::Result<File> {
     File::options().append(true).open(path)
@@ -77,9 +88,11 @@ pub(crate) fn open_stream(path: &Path) -> io::Result<File> {
 
 /// Returns whether a path names an open file of a process, such as `/dev/stdout`, which cannot be replaced by a rename.
 pub(crate) fn is_descriptor_path(path: &Path) -> bool {
-    let named = ["/dev/stdin", "/dev/stdout", "/dev/stderr"];
+    let standard_streams = ["/dev/stdin", "/dev/stdout", "/dev/stderr"];
     let in_proc = || path.starts_with("/proc") && path.parent().is_some_and(|p| p.ends_with("fd"));
-    named.iter().any(|name| path == Path::new(name)) || path.starts_with("/dev/fd") || in_proc()
+    standard_streams.iter().any(|name| path == Path::new(name))
+        || path.starts_with("/dev/fd")
+        || in_proc()
 }
 
 /// Returns the target of a path that is a symbolic link, also if the target does not exist.

@@ -1,17 +1,17 @@
-//! Atomic writes of output files, by one process at a time, and reads of input files that end.
+//! Atomic writes of output files, by one process at a time, and bounded reads of input files.
 //!
 //! | to … | see |
 //! |---|---|
 //! | write a file in one go | [`write()`] |
-//! | write a file for long, alone | [`Claim`] |
-//! | tell files from pipes and devices | [`Destination`] |
-//! | read a whole file, and no device | [`read()`], [`read_to_string`], [`open`] |
+//! | write a file over a long time, as its only writer | [`Claim`] |
+//! | distinguish files from pipes and devices | [`Destination`] |
+//! | read a whole file, but no device | [`read()`], [`read_to_string`], [`open`] |
 //!
 //! # Guarantee
 //! A file has its final name only when it is complete and on the disk. Until then an older file of that name is
-//! unchanged: an error, a full disk or a killed process loses nothing. What a killed process left beside it, [`write()`]
-//! removes later. A new file has the permissions of the file that
-//! it replaces. Links are followed: their targets are replaced.
+//! unchanged: an error, a full disk or a killed process loses nothing. Later calls of [`write()`] remove what a killed
+//! process left beside it. A new file has the permissions of the file that it replaces. Links are followed: their
+//! targets are replaced.
 
 mod claim;
 mod destination;
@@ -19,7 +19,7 @@ mod read;
 mod temp_file;
 
 pub use claim::{Claim, PARTIAL_EXTENSION};
-pub use destination::{Destination, check_parent_folder, resolve_links};
+pub use destination::{Destination, check_parent_folder, folder_to_open, resolve_links};
 pub use read::{MAX_FILE_BYTES, MAX_PIPE_BYTES, open, read, read_to_string};
 
 use std::io::{self, Write};

@@ -1,4 +1,4 @@
-//! Reads whole files, and refuses what might never end.
+//! Reads whole files, and refuses devices and pipes that might never end.
 
 use crate::destination::is_descriptor_path;
 use std::fs::{self, File};
@@ -8,7 +8,7 @@ use std::path::Path;
 /// The greatest length in bytes of a file that is read whole.
 pub const MAX_FILE_BYTES: u64 = 1 << 32;
 
-/// The greatest length in bytes of what is read from a pipe, whose length is not known before.
+/// The greatest number of bytes that are read from a pipe, whose length is not known in advance.
 pub const MAX_PIPE_BYTES: u64 = 1 << 28;
 
 /// Opens a file that is read to its end.
@@ -17,24 +17,24 @@ pub const MAX_PIPE_BYTES: u64 = 1 << 28;
 /// pipe may wait for ever.
 ///
 /// # Errors
-/// Anything else, and errors of the operating system.
+/// The path leads to anything else, or the operating system fails.
 pub fn open(path: impl AsRef<Path>) -> io::Result<File> {
     Ok(open_bounded(path.as_ref())?.0)
 }
 
 /// Opens a file, and returns the greatest number of bytes that are read of it.
 fn open_bounded(path: &Path) -> io::Result<(File, u64)> {
-    let about = fs::metadata(path)?;
-    if about.is_file() {
+    let metadata = fs::metadata(path)?;
+    if metadata.is_file() {
         return Ok((File::open(path)?, MAX_FILE_BYTES));
     }
-    if about.is_dir() {
+    if metadata.is_dir() {
         return Err(io::Error::new(
             io::ErrorKind::IsADirectory,
             "it is a folder",
         ));
     }
-    if is_descriptor_path(path) && is_pipe(&about) {
+    if is_descriptor_path(path) && is_pipe(&metadata) {
         return Ok((File::open(path)?, MAX_PIPE_BYTES));
     }
     Err(io::Error::other(
@@ -45,37 +45,37 @@ fn open_bounded(path: &Path) -> io::Result<(File, u64)> {
 /// Reads a whole file, of the kinds that [`open`] opens.
 ///
 /// # Errors
-/// Those of [`open`], and a length of more than [`MAX_FILE_BYTES`] or, of a pipe, [`MAX_PIPE_BYTES`].
+/// The errors of [`open`]; or a file is longer than [`MAX_FILE_BYTES`], or a pipe gives more than [`MAX_PIPE_BYTES`].
 ///
 /// ```
 /// assert!(ccd_file::read(std::env::temp_dir()).is_err());
 /// ```
 pub fn read(path: impl AsRef<Path>) -> io::Result<Vec<u8>> {
-    let (file, most) = open_bounded(path.as_ref())?;
+    let (file, max_bytes) = open_bounded(path.as_ref())?;
     let mut bytes = Vec::new();
-    if file.metadata()?.len() <= most {
-        file.take(most + 1).read_to_end(&mut bytes)?;
-        if bytes.len() as u64 <= most {
+    if file.metadata()?.len() <= max_bytes {
+        file.take(max_bytes + 1).read_to_end(&mut bytes)?;
+        if bytes.len() as u64 <= max_bytes {
             return Ok(bytes);
         }
     }
-    let problem = format!("it has more than {most} bytes");
+    let problem = format!("it has more than {max_bytes} bytes");
     Err(io::Error::new(io::ErrorKind::FileTooLarge, problem))
 }
 
 /// Reads a whole file as text in UTF-8.
 ///
 /// # Errors
-/// Those of [`read`], and other bytes than UTF-8.
+/// The errors of [`read`], or the content is not UTF-8.
 pub fn read_to_string(path: impl AsRef<Path>) -> io::Result<String> {
     String::from_utf8(read(path)?)
         .map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "it is not text in UTF-8"))
 }
 
 #[cfg(unix)]
-fn is_pipe(about: &fs::Metadata) -> bool {
+fn is_pipe(metadata: &fs::Metadata) -> bool {
     use std::os::unix::fs::FileTypeExt;
-    about.file_type().is_fifo() || about.file_type().is_socket()
+    metadata.file_type().is_fifo() || metadata.file_type().is_socket()
 }
 
 #[cfg(not(unix))]

@@ -1,5 +1,6 @@
 //! Temporary files that are renamed to their final names.
 
+use crate::destination::folder_to_open;
 use same_file::Handle;
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -39,9 +40,9 @@ impl TempFile {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(error_with_path(&path, &error)),
                 Ok(file) => {
-                    // The lock says that the file is in use. A file system without locks has no abandoned files removed.
+                    // The lock marks the file as in use. On a file system without locks, abandoned files stay.
                     let _ = file.try_lock();
-                    // Before it was locked another process may have taken it for an abandoned one.
+                    // Before the lock, another process may have removed the file as an abandoned one.
                     if leads_to_file(&file, &path)? {
                         return Ok(TempFile {
                             file,
@@ -65,9 +66,9 @@ impl TempFile {
             let problem = format!("{path} was removed or replaced while it was written");
             return Err(io::Error::new(io::ErrorKind::NotFound, problem));
         }
-        if let Ok(there) = fs::metadata(&self.target) {
+        if let Ok(metadata) = fs::metadata(&self.target) {
             // Some file systems have no permissions to set.
-            let _ = self.file.set_permissions(there.permissions());
+            let _ = self.file.set_permissions(metadata.permissions());
         }
         // Some file systems report a full disk only here.
         self.file.sync_all()?;
@@ -86,25 +87,20 @@ impl Drop for TempFile {
     }
 }
 
-/// Removes the temporary files in a folder whose processes have ended before they were complete: those that no process has
-/// locked. A process does so once for each folder.
+/// Removes abandoned temporary files from a folder: the ones that no process has locked, because their processes have ended.
+/// A process does this once for each folder.
 fn remove_abandoned_files_once(folder: &Path) {
-    static DONE: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
-    let is_first = DONE
+    static CLEANED_FOLDERS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    let is_first_time = CLEANED_FOLDERS
         .lock()
-        .is_ok_and(|mut done| done.insert(folder.to_owned()));
-    let here = if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
-    };
-    let entries = is_first.then(|| fs::read_dir(here).ok()).flatten();
-    for entry in entries.into_iter().flatten().flatten() {
+        .is_ok_and(|mut cleaned_folders| cleaned_folders.insert(folder.to_owned()));
+    let entries = is_first_time.then(|| fs::read_dir(folder_to_open(folder)).ok());
+    for entry in entries.flatten().into_iter().flatten().flatten() {
         let name = entry.file_name();
         if name.to_str().is_some_and(is_temp_name)
             && entry.file_type().is_ok_and(|kind| kind.is_file())
         {
-            // What cannot be removed stays, and does no harm.
+            // A file that cannot be removed does no harm.
             let _ = remove_if_abandoned(&entry.path());
         }
     }
@@ -112,12 +108,12 @@ fn remove_abandoned_files_once(folder: &Path) {
 
 /// Returns whether a name is one that [`TempFile::new`] gives: `NAME.PROCESS-COUNT.part`.
 fn is_temp_name(name: &str) -> bool {
-    let number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     let ending = name
         .strip_suffix(TEMP_EXTENSION)
         .and_then(|name| name.rsplit_once('.'))
         .and_then(|(_, numbers)| numbers.split_once('-'));
-    ending.is_some_and(|(process, count)| number(process) && number(count))
+    ending.is_some_and(|(process, count)| is_number(process) && is_number(count))
 }
 
 fn remove_if_abandoned(path: &Path) -> io::Result<()> {
@@ -129,7 +125,7 @@ fn remove_if_abandoned(path: &Path) -> io::Result<()> {
 /// Returns whether a path still leads to a given open file, rather than to a newer file or to none.
 pub(crate) fn leads_to_file(file: &File, path: &Path) -> io::Result<bool> {
     match Handle::from_path(path) {
-        Ok(there) => Ok(there == Handle::from_file(file.try_clone()?)?),
+        Ok(metadata) => Ok(metadata == Handle::from_file(file.try_clone()?)?),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
         Err(error) => Err(error),
     }

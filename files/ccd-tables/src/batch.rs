@@ -4,8 +4,8 @@ mod batch_size;
 
 pub use batch_size::BatchSize;
 
-use crate::courses::Movements;
 use crate::motions::RowProblem;
+use crate::movements::Movements;
 use crate::results::{ClearanceAndExcess, ResultRow};
 use ccd_core::{Answer, Body, InputError, Query, Question, Settings};
 use rigid_ccd::ParallelSolver;
@@ -29,16 +29,21 @@ impl<'q> BodyPair<'q> {
     pub fn build_query(
         self,
         question: Question,
-        course: &'q Movements,
+        movements: &'q Movements,
         settings: &'q Settings,
     ) -> Result<Query<'q>, InputError> {
         let BodyPair { a, b } = self;
         if question == Question::Distance {
-            let [pose_a, pose_b] = course.poses_at(0.0)?;
+            let [pose_a, pose_b] = movements.poses_at(0.0)?;
             return Query::new((a, pose_a), (b, pose_b), 0.0, settings);
         }
-        let [course_a, course_b] = course.trajectories();
-        Query::new((a, course_a), (b, course_b), course.duration(), settings)
+        let [trajectory_a, trajectory_b] = movements.trajectories();
+        Query::new(
+            (a, trajectory_a),
+            (b, trajectory_b),
+            movements.duration(),
+            settings,
+        )
     }
 
     /// Returns the row of the table of results for the answer or error of a query.
@@ -46,13 +51,18 @@ impl<'q> BodyPair<'q> {
         self,
         question: Question,
         settings: &Settings,
-        course: &Movements,
+        movements: &Movements,
         answer: &Result<TimedAnswer, RowProblem>,
     ) -> ResultRow {
-        let compared = self.clearance_and_excess(settings.clearance);
+        let clearance_and_excess = self.clearance_and_excess(settings.clearance);
         match answer {
-            Ok(timed) => ResultRow::new(course, (question, &timed.answer), timed.micros, compared),
-            Err(problem) => ResultRow::error(course.id(), problem),
+            Ok(timed) => ResultRow::new(
+                movements,
+                (question, &timed.answer),
+                timed.micros,
+                clearance_and_excess,
+            ),
+            Err(problem) => ResultRow::error(movements.id(), problem),
         }
     }
 

@@ -51,8 +51,8 @@ impl TableKind {
     /// Returns the names of all columns that a table of this kind may have, in order.
     pub(crate) fn names(self) -> Vec<String> {
         let bodies = self.prefixes().iter().flat_map(|prefix| {
-            let of_body = self.body_columns().iter();
-            of_body.map(move |name| format!("{prefix}{name}"))
+            let body_columns = self.body_columns().iter();
+            body_columns.map(move |name| format!("{prefix}{name}"))
         });
         let (before, after): (&[&str], &[&str]) = match self {
             TableKind::Motions => (&["id"], &["duration"]),
@@ -79,7 +79,7 @@ impl TableKind {
     /// Returns the known columns that hold a quantity's components, as indices into [`TableKind::names`]; empty if tables of
     /// this kind do not have it.
     pub(crate) fn known_column_range(self, side: Side, quantity: Quantity) -> Range<usize> {
-        let within = match (self, quantity) {
+        let range = match (self, quantity) {
             (_, Quantity::Position) => 0..3,
             (_, Quantity::Orientation) => 3..7,
             (TableKind::Paths, Quantity::AngularVelocity) => 7..10,
@@ -91,10 +91,10 @@ impl TableKind {
             (_, Quantity::AngularVelocity) => 17..20,
             (_, Quantity::Center) => 20..23,
         };
-        // The columns before those of the bodies: `id`, and in a table of paths `t`.
+        // The columns of the bodies follow `id` and, in a table of paths, `t`.
         let before = 1 + usize::from(self == TableKind::Paths);
         let first = before + side as usize * self.body_columns().len();
-        first + within.start..first + within.end
+        first + range.start..first + range.end
     }
 
     /// Returns the names of a body's columns, without its prefix.
@@ -141,36 +141,36 @@ impl Columns {
     /// Parses a header: a table with a column `t` is a table of paths.
     ///
     /// # Errors
-    /// A column is unknown, appears twice or is missing, or there is none.
+    /// A column is unknown, appears twice or is missing, or the header is empty.
     pub fn of(header: &[String]) -> Result<Self, TableError> {
-        let form = if header.iter().any(|name| name == TIME_COLUMN_NAME) {
+        let table_kind = if header.iter().any(|name| name == TIME_COLUMN_NAME) {
             TableKind::Paths
         } else {
             TableKind::Motions
         };
-        Columns::from_header(header, form)
+        Columns::from_header(header, table_kind)
     }
 
     /// Parses the header of a table of the given kind.
     ///
     /// # Errors
-    /// A column is unknown, appears twice or is missing, or there is none.
-    pub fn from_header(header: &[String], form: TableKind) -> Result<Self, TableError> {
+    /// A column is unknown, appears twice or is missing, or the header is empty.
+    pub fn from_header(header: &[String], table_kind: TableKind) -> Result<Self, TableError> {
         if header.iter().all(String::is_empty) {
             return Err(TableError::Empty);
         }
-        let names = form.names();
+        let names = table_kind.names();
         if let Some(number) = number_in_header(header, &names) {
-            let known = form.known_columns_text();
+            let known_columns = table_kind.known_columns_text();
             return Err(TableError::NoHeader {
                 first_number_in_header: number,
-                known_columns: known,
+                known_columns,
             });
         }
         let mut cells = vec![None; names.len()];
         for (cell, column) in header.iter().enumerate() {
             let Some(slot) = names.iter().position(|name| name == column) else {
-                return Err(unknown_column_error(header, column, form));
+                return Err(unknown_column_error(header, column, table_kind));
             };
             if cells[slot].replace(cell).is_some() {
                 return Err(TableError::RepeatedColumn {
@@ -179,7 +179,7 @@ impl Columns {
             }
         }
         let columns = Columns {
-            table_kind: form,
+            table_kind,
             names,
             cell_indices: cells,
             header: header.to_owned(),
@@ -192,26 +192,27 @@ impl Columns {
     /// Refuses a header with only some of the columns of an orientation or of an end position. In a table of paths,
     /// angular velocities also need the columns of an orientation.
     fn check_complete_groups(&self) -> Result<(), TableError> {
-        let wholes = [
+        let indivisible_quantities = [
             Quantity::Orientation,
             Quantity::EndPosition,
             Quantity::EndOrientation,
         ];
-        let spin = self.is_path_table().then_some(Quantity::AngularVelocity);
-        let of_spin = spin.map(|spin| (spin, Quantity::Orientation));
-        let needs = wholes
-            .map(|whole| (whole, whole))
+        let angular_velocity = self.is_path_table().then_some(Quantity::AngularVelocity);
+        let needed_by_angular_velocity =
+            angular_velocity.map(|quantity| (quantity, Quantity::Orientation));
+        let needs = indivisible_quantities
+            .map(|quantity| (quantity, quantity))
             .into_iter()
-            .chain(of_spin);
-        let is_there = |&slot: &usize| self.cell_indices[slot].is_some();
+            .chain(needed_by_angular_velocity);
+        let is_in_table = |&slot: &usize| self.cell_indices[slot].is_some();
         for side in self.table_kind.sides() {
-            for (given, needed) in needs.clone() {
-                let given = self.known_column_range(side, given).find(is_there);
+            for (quantity, needed) in needs.clone() {
+                let present = self.known_column_range(side, quantity).find(is_in_table);
                 let mut needed = self.known_column_range(side, needed);
-                let missing = needed.find(|slot| !is_there(slot));
-                if let (Some(given), Some(missing)) = (given, missing) {
+                let missing = needed.find(|slot| !is_in_table(slot));
+                if let (Some(present), Some(missing)) = (present, missing) {
                     return Err(TableError::MissingColumn {
-                        present_column: self.name(given).to_owned(),
+                        present_column: self.name(present).to_owned(),
                         missing_column: self.name(missing).to_owned(),
                     });
                 }
@@ -269,7 +270,7 @@ fn number_in_header(header: &[String], names: &[String]) -> Option<String> {
 }
 
 /// Returns the error of a header with an unknown column.
-fn unknown_column_error(header: &[String], column: &str, form: TableKind) -> TableError {
+fn unknown_column_error(header: &[String], column: &str, table_kind: TableKind) -> TableError {
     if let ([only], Some(separator)) = (header, foreign::header_separator(column)) {
         return TableError::WrongSeparator {
             found: separator,
@@ -281,36 +282,37 @@ fn unknown_column_error(header: &[String], column: &str, form: TableKind) -> Tab
         return TableError::PandasIndex { column };
     }
     let lower = column.to_ascii_lowercase();
-    if let Some(prefix) = body_prefix_of_angle_column(&lower, form) {
+    if let Some(prefix) = body_prefix_of_angle_column(&lower, table_kind) {
         let column = column.to_owned();
         return TableError::AngleColumn { column, prefix };
     }
     let edit_distance = |name: &&String| strsim::damerau_levenshtein(name, &lower);
-    let names = form.names();
+    let names = table_kind.names();
     // Names are short, so that a larger edit distance means another name.
     let nearest = (names.iter().min_by_key(edit_distance))
         .filter(|name| edit_distance(name) <= 2 && edit_distance(name) < lower.chars().count());
     // A velocity in a table of paths is not a misspelt position.
-    let of_other_form = form == TableKind::Paths && TableKind::Motions.names().contains(&lower);
+    let is_motion_column =
+        table_kind == TableKind::Paths && TableKind::Motions.names().contains(&lower);
     TableError::UnknownColumn {
         column: column.to_owned(),
-        known_columns: form.known_columns_text(),
+        known_columns: table_kind.known_columns_text(),
         most_similar_column: match lower.as_str() {
             "time" => Some(TIME_COLUMN_NAME.to_owned()),
-            _ => (nearest.filter(|name| **name == lower || !of_other_form)).cloned(),
+            _ => (nearest.filter(|name| **name == lower || !is_motion_column)).cloned(),
         },
     }
 }
 
 /// Returns the body's prefix in a column name that is typical of an Euler angle or a rotation vector; `None` for other
 /// names.
-fn body_prefix_of_angle_column(lower: &str, form: TableKind) -> Option<&'static str> {
-    let (prefixes, usual): (&[&str], _) = match form {
+fn body_prefix_of_angle_column(lower: &str, table_kind: TableKind) -> Option<&'static str> {
+    let (prefixes, default_prefix): (&[&str], _) = match table_kind {
         TableKind::Motions | TableKind::Paths => (&["a_end_", "b_end_", "a_", "b_"], "a_"),
         TableKind::Scene => (&["end_"], ""),
     };
-    let found = prefixes.iter().find(|prefix| lower.starts_with(*prefix));
-    let prefix = found.copied().unwrap_or(usual);
+    let prefix = prefixes.iter().find(|prefix| lower.starts_with(*prefix));
+    let prefix = prefix.copied().unwrap_or(default_prefix);
     let name = lower.strip_prefix(prefix).unwrap_or(lower);
     ANGLE_COLUMN_NAMES.contains(&name).then_some(prefix)
 }
@@ -324,12 +326,12 @@ const ANGLE_COLUMN_NAMES: [&str; 27] = [
 
 /// The index of the column `id` among the known columns.
 pub(crate) const ID_COLUMN_INDEX: usize = 0;
-/// The index of the column `duration` among those of a table of motions.
+/// The index of the column `duration` among the known columns of a table of motions.
 pub(crate) const DURATION_COLUMN_INDEX: usize = 2 * BODY_COLUMNS.len() + 1;
-/// The index of the column `t` among those of a table of paths.
+/// The index of the column `t` among the known columns of a table of paths.
 pub(crate) const TIME_COLUMN_INDEX: usize = 1;
 const TIME_COLUMN_NAME: &str = "t";
-/// The index of the column `body` among those of a scene's table.
+/// The index of the column `body` among the known columns of a scene's table.
 pub const BODY_COLUMN_INDEX: usize = BODY_COLUMNS.len() + 1;
 /// The name of the column that describes a body in a scene's table.
 pub const BODY_COLUMN_NAME: &str = "body";

@@ -29,8 +29,8 @@ const MAX_RECORD_BYTES: u64 = 1 << 24;
 /// The greatest length in bytes of a cell.
 const MAX_CELL_BYTES: usize = 1 << 16;
 
-/// What follows the input. The line number of a row is computed from its end, so that the last row needs a line end,
-/// too. No row takes the second one, unless a quote is still open.
+/// The line ends that are appended to the input. The first one ends the last row, because the line number of a row is
+/// computed from its end. A row takes the second one only if a quote is still open.
 const APPENDED_LINE_ENDS: &[u8] = b"\n\n";
 
 impl<R: Read> CsvRecords<R> {
@@ -60,7 +60,7 @@ impl<R: Read> CsvRecords<R> {
         Ok(records)
     }
 
-    /// Allows the next record, with the empty lines before it, as many bytes as any may have: a device or a line without an end
+    /// Limits the length of the next record, with the empty lines before it. Without a limit, a device or a line without an end
     /// would fill the memory.
     fn allow_next_record(&mut self) {
         let end = self.reader.position().byte() + MAX_RECORD_BYTES;
@@ -111,7 +111,7 @@ impl<R: Read> Records for CsvRecords<R> {
     }
 
     fn advance(&mut self) -> Result<Option<RowPosition>, TableError> {
-        let before = self.reader.position().line();
+        let line_before = self.reader.position().line();
         self.allow_next_record();
         if !self.reader.read_byte_record(&mut self.raw_record)? {
             return Ok(None);
@@ -125,11 +125,15 @@ impl<R: Read> Records for CsvRecords<R> {
         self.row_count += 1;
         // The reader also skips empty lines before the row, so the line number is computed from the row's
         // end.
-        let within: u64 = self.raw_record.iter().map(line_end_count).sum();
-        let after = self.reader.position().line();
+        let inner_line_ends: u64 = self.raw_record.iter().map(line_end_count).sum();
+        let line_after = self.reader.position().line();
         Ok(Some(RowPosition {
             row,
-            line: Some(after.saturating_sub(within + 1).max(before)),
+            line: Some(
+                line_after
+                    .saturating_sub(inner_line_ends + 1)
+                    .max(line_before),
+            ),
         }))
     }
 }

@@ -23,18 +23,18 @@ pub enum TableError {
         "is Parquet, which this build does not read; build it with `--features parquet`, or export the table as CSV, in UTF-8"
     )]
     ParquetNotBuilt,
-    /// A Parquet file is damaged, or stored in a way that is not read.
+    /// A Parquet file is damaged, or stored in a way that cannot be read.
     #[error("{0}")]
     Parquet(ParquetProblem),
     /// Parquet comes from a stream.
     #[error("is Parquet, which is read from a file, not from a stream; give the file's path")]
     ParquetStream,
-    /// A column of a Parquet file has values of a type that is not read.
+    /// A column of a Parquet file has values of a type that cannot be read.
     #[error("header: column `{column}` holds {found}; convert them to numbers or to text")]
     ColumnType {
         /// The name of the column.
         column: String,
-        /// What the column holds, in words.
+        /// The type of the column's values, as text.
         found: String,
     },
     /// The file is a Git LFS pointer.
@@ -93,17 +93,17 @@ pub enum TableError {
     /// A column is named like an angle, but orientations are quaternions.
     #[error(
         "header: column `{column}` is named like an angle, and orientations are quaternions: columns {prefix}qw {prefix}qx \
-         {prefix}qy {prefix}qz, w first; of scipy, Rotation.from_euler(…).as_quat(scalar_first=True) makes them of angles"
+         {prefix}qy {prefix}qz, w first; in scipy, Rotation.from_euler(…).as_quat(scalar_first=True) computes them from angles"
     )]
     AngleColumn {
-        /// The name that looks like that of an angle.
+        /// The name that looks like the name of an angle.
         column: String,
         /// The prefix of the body's columns.
         prefix: &'static str,
     },
     /// A column has no name, like the index of a pandas frame.
     #[error(
-        "header: column `{column}` has no name; an index of pandas is written so: write the table with index=False, \
+        "header: column `{column}` has no name; pandas writes its index like this: write the table with index=False, \
          or drop the column"
     )]
     PandasIndex {
@@ -135,7 +135,7 @@ impl From<csv::Error> for TableError {
     }
 }
 
-/// What is wrong in a Parquet file, and where.
+/// The problem of a Parquet file, and its place.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "cannot be read as Parquet: {}{}{problem}",
@@ -147,7 +147,7 @@ pub struct ParquetProblem {
     pub row_group: Option<usize>,
     /// The name of the column; `None` for all of them.
     pub column: Option<String>,
-    /// What is wrong, in words.
+    /// The problem, as text.
     pub problem: String,
 }
 
@@ -232,7 +232,7 @@ pub enum RowProblem {
     BadDuration {
         /// The duration that is refused.
         value: f64,
-        /// The allowed durations, in words.
+        /// The allowed durations, as text.
         allowed: &'static str,
     },
     /// The times of a path do not increase.
@@ -249,7 +249,7 @@ pub enum RowProblem {
     },
     /// A time is so large relative to the path's first time that it rounds to the time of the row before.
     #[error(
-        "column t: {} is so long after {}, where the path begins, that times cannot be told apart",
+        "column t: {} is so long after {}, the start of the path, that times cannot be distinguished",
         Number(*.time),
         Number(*.first_row_time)
     )]
@@ -273,7 +273,7 @@ pub enum RowProblem {
     },
     /// A row has another center of rotation than the previous row of its path.
     #[error(
-        "columns {body}_cx {body}_cy {body}_cz: not those of the row before; a path has one center of rotation"
+        "columns {body}_cx {body}_cy {body}_cz: differ from the row before; a path has one center of rotation"
     )]
     CenterChanged {
         /// The letter of the body, as in the columns' prefix.
@@ -281,7 +281,7 @@ pub enum RowProblem {
     },
     /// The angular velocity in the previous row does not lead to the orientation in this row.
     #[error(
-        "columns {body}_wx {body}_wy {body}_wz: those of the row before lead {orientation_mismatch_angle:.3} radians away from this orientation; \
+        "columns {body}_wx {body}_wy {body}_wz: the angular velocity of the row before leads {orientation_mismatch_angle:.3} radians away from this orientation; \
          a quarter turn (1.571) is the most; give more rows, or 0 for the shortest turn"
     )]
     OrientationMismatch {

@@ -1,6 +1,6 @@
 //! Recognises files that are not CSV by their first bytes.
 
-/// The first bytes of Parquet, which has a reader of its own if this build includes it.
+/// The first bytes of a Parquet file. Its reader is a part of this build only with the feature `parquet`.
 pub(super) const PARQUET_SIGNATURE: &[u8] = b"PAR1";
 
 /// The first bytes of other file formats, each with the name of the format.
@@ -32,10 +32,10 @@ pub(super) fn is_parquet(header: &csv::ByteRecord) -> bool {
 /// Returns the format of a binary file, recognised by its header; `None` for text.
 pub(super) fn format(header: &csv::ByteRecord) -> Option<&'static str> {
     let bytes = header.as_slice();
-    let known = FILE_SIGNATURES
+    let signature = FILE_SIGNATURES
         .iter()
-        .find(|(begin, _)| bytes.starts_with(begin));
-    known
+        .find(|(first_bytes, _)| bytes.starts_with(first_bytes));
+    signature
         .map(|&(_, format)| format)
         .or_else(|| bytes.contains(&0).then_some("binary"))
 }
@@ -50,5 +50,5 @@ pub(super) fn is_pandas_index(column: &str) -> bool {
 pub(super) fn header_separator(header: &str) -> Option<char> {
     [';', '\t', '|']
         .into_iter()
-        .find(|&mark| header.contains(mark))
+        .find(|&separator| header.contains(separator))
 }

@@ -80,27 +80,28 @@ pub fn joint_column<N: AsRef<str>>(
     unit: AngleUnit,
 ) -> Result<Option<JointColumn>, JointColumnError> {
     let find = |name: &str| header.iter().position(|column| column.as_ref() == name);
-    let turns = robot
-        .joints()
-        .iter()
-        .any(|own| own.name == joint && matches!(own.geometry.kind(), JointKind::Revolute(_)));
+    let turns = robot.joints().iter().any(|candidate| {
+        candidate.name == joint && matches!(candidate.geometry.kind(), JointKind::Revolute(_))
+    });
     let in_degrees = format!("{joint}{DEGREES_SUFFIX}");
     let names = [joint, &in_degrees].map(|name| format!("{prefix}{name}"));
-    let [plain, degrees] = names.each_ref().map(|name| find(name));
-    let is_other_joint = robot.independent_joint_names().any(|own| own == in_degrees);
+    let [without_suffix, with_suffix] = names.each_ref().map(|name| find(name));
+    let is_other_joint = robot
+        .independent_joint_names()
+        .any(|other_joint| other_joint == in_degrees);
     let [_, column] = names.clone();
     let joint = joint.to_owned();
-    let found = |column, unit| Ok(Some(JointColumn { column, unit }));
-    match (plain, degrees) {
+    let joint_column = |column, unit| Ok(Some(JointColumn { column, unit }));
+    match (without_suffix, with_suffix) {
         (None, Some(_)) if is_other_joint => Err(JointColumnError::Ambiguous { column, joint }),
         (Some(_), Some(_)) if !is_other_joint => Err(JointColumnError::Repeated {
             columns: names,
             joint,
         }),
         (None, Some(_)) if !turns => Err(JointColumnError::Slides { column, joint }),
-        (None, Some(column)) => found(column, AngleUnit::Degree),
-        (Some(column), _) if turns => found(column, unit),
-        (Some(column), _) => found(column, AngleUnit::Radian),
+        (None, Some(column)) => joint_column(column, AngleUnit::Degree),
+        (Some(column), _) if turns => joint_column(column, unit),
+        (Some(column), _) => joint_column(column, AngleUnit::Radian),
         (None, None) => Ok(None),
     }
 }

@@ -1,13 +1,12 @@
 //! Tables of motions, paths and joints, read from CSV or Parquet and answered row by row.
 //!
-//! The command `ccd` and the Python package share it. A program that asks about bodies of its own uses `rigid-ccd`
-//! alone.
+//! The command `ccd` and the Python package share it. Other programs use `rigid-ccd` directly.
 //!
 //! | to … | use |
 //! |---|---|
 //! | read rows of motions | [`motions::MotionTable`] |
 //! | read rows of poses at times | [`paths`] |
-//! | take either | [`courses::Movements`] |
+//! | read rows of motions or of poses | [`movements::Movements`] |
 //! | answer rows on all cores | [`batch`] |
 //! | write the answers | [`results::ResultRow`], a row for each; [`results::COLUMNS`] |
 //! | read any other table | [`table_records::TableRecords`], [`columns`] |
@@ -19,7 +18,6 @@
 
 pub mod batch;
 pub mod columns;
-pub mod courses;
 pub mod csv_records;
 mod error;
 mod excerpt;
@@ -28,6 +26,7 @@ mod foreign;
 pub mod joint_columns;
 mod lines;
 pub mod motions;
+pub mod movements;
 #[cfg(feature = "parquet")]
 mod parquet_records;
 #[cfg(feature = "robots")]

@@ -10,9 +10,9 @@ pub(super) struct LineEndConverter<R> {
     is_after_carriage_return: bool,
     /// The number of bytes read from the input.
     read_byte_count: u64,
-    /// The number of these bytes that were dropped: those of byte order marks, and one for each `\r\n`.
+    /// The number of dropped bytes: the bytes of byte order marks, and one byte for each `\r\n`.
     dropped_byte_count: u64,
-    /// The number of bytes that this reader may give in all.
+    /// The greatest number of bytes that this reader gives in total.
     allowed_byte_count: u64,
 }
 
@@ -24,27 +24,27 @@ impl<R: Read> LineEndConverter<R> {
     /// # Errors
     /// The first bytes cannot be read.
     pub(super) fn new(mut input: R) -> io::Result<Self> {
-        let (mut start, mut marks) = (Vec::new(), 0);
+        let (mut start, mut mark_byte_count) = (Vec::new(), 0);
         loop {
-            // Pipes may cut a mark.
-            let most = BYTE_ORDER_MARK.len() as u64;
-            input.by_ref().take(most).read_to_end(&mut start)?;
+            // A read from a pipe may end within a mark.
+            let mark_length = BYTE_ORDER_MARK.len() as u64;
+            input.by_ref().take(mark_length).read_to_end(&mut start)?;
             if start != BYTE_ORDER_MARK {
                 break;
             }
-            marks += most;
+            mark_byte_count += mark_length;
             start.clear();
         }
         Ok(LineEndConverter {
             input: io::Cursor::new(start).chain(input),
             is_after_carriage_return: false,
-            read_byte_count: marks,
-            dropped_byte_count: marks,
+            read_byte_count: mark_byte_count,
+            dropped_byte_count: mark_byte_count,
             allowed_byte_count: u64::MAX,
         })
     }
 
-    /// Allows this reader to give so many bytes in all; a read after that fails.
+    /// Limits the number of bytes that this reader gives in total. A read after that fails.
     pub(super) fn allow_up_to(&mut self, bytes: u64) {
         self.allowed_byte_count = bytes;
     }
@@ -54,9 +54,10 @@ impl<R: Read> LineEndConverter<R> {
         self.read_byte_count - self.dropped_byte_count
     }
 
-    /// Returns the number of input bytes for the first `taken` bytes of this reader's output.
-    pub(super) fn input_bytes_for_output(&self, taken: u64) -> u64 {
-        self.read_byte_count.min(taken + self.dropped_byte_count)
+    /// Returns the number of input bytes for the first `output_bytes` bytes of this reader's output.
+    pub(super) fn input_bytes_for_output(&self, output_bytes: u64) -> u64 {
+        self.read_byte_count
+            .min(output_bytes + self.dropped_byte_count)
     }
 }
 
@@ -67,29 +68,30 @@ impl<R: Read> Read for LineEndConverter<R> {
             return Err(io::Error::new(io::ErrorKind::InvalidData, problem));
         }
         loop {
-            let read = self.input.read(out)?;
-            self.read_byte_count += read as u64;
+            let read_count = self.input.read(out)?;
+            self.read_byte_count += read_count as u64;
             // Most tables have no `\r`, and a search for it is many times as fast as the loop below.
-            if !self.is_after_carriage_return && !out[..read].contains(&b'\r') {
-                return Ok(read);
+            if !self.is_after_carriage_return && !out[..read_count].contains(&b'\r') {
+                return Ok(read_count);
             }
-            let mut kept = 0;
-            for k in 0..read {
-                let (byte, second) = (out[k], self.is_after_carriage_return && out[k] == b'\n');
+            let mut kept_count = 0;
+            for k in 0..read_count {
+                let (byte, is_second_of_pair) =
+                    (out[k], self.is_after_carriage_return && out[k] == b'\n');
                 self.is_after_carriage_return = byte == b'\r';
-                if !second {
-                    out[kept] = if self.is_after_carriage_return {
+                if !is_second_of_pair {
+                    out[kept_count] = if self.is_after_carriage_return {
                         b'\n'
                     } else {
                         byte
                     };
-                    kept += 1;
+                    kept_count += 1;
                 }
             }
-            self.dropped_byte_count += (read - kept) as u64;
+            self.dropped_byte_count += (read_count - kept_count) as u64;
             // A read of 0 bytes would mean the end of the input.
-            if kept > 0 || read == 0 {
-                return Ok(kept);
+            if kept_count > 0 || read_count == 0 {
+                return Ok(kept_count);
             }
         }
     }

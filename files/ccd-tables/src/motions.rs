@@ -7,8 +7,7 @@ mod write;
 
 pub use super::error::{RowError, RowProblem, TableError};
 pub use super::position::RowPosition;
-pub use row::parse_row;
-pub use row::{BodyRow, body_row};
+pub use row::{BodyRow, body_row, parse_row};
 pub use write::write;
 
 use crate::columns::{Columns, TableKind};
@@ -63,10 +62,10 @@ impl MotionTable {
 
 /// An iterator over the rows of a table of motions.
 ///
-/// Columns go by name, in any order. Missing columns have defaults: at rest at the identity, for a duration
-/// of 1. An empty cell has none, and is an error of its row; but a row that gives the end pose of a body leaves
-/// its velocities empty, and the other way round. Lines may end in `\n`, `\r\n` or `\r`. Empty lines are skipped,
-/// but counted. A quoted cell may hold line ends, and must be closed.
+/// Columns are identified by their names, in any order. Missing columns have defaults: bodies at rest in the identity
+/// pose, for a duration of 1. An empty cell has no default: it is an error of its row. But a row that gives the end
+/// pose of a body leaves the velocities empty, and a row that gives velocities leaves the end pose empty. Lines may end
+/// in `\n`, `\r\n` or `\r`. Empty lines are skipped, but counted. A quoted cell may hold line ends, and must be closed.
 #[derive(Debug)]
 pub struct MotionRows<S> {
     pub(crate) records: S,

@@ -1,7 +1,7 @@
 //! Reads a table from a Parquet file, row by row.
 //!
-//! Each cell becomes the text that the same value has in CSV, so that both formats are parsed by the same code. The
-//! shortest text of a float that is read back as the same float keeps all its bits.
+//! Each cell becomes the text that the same value has in CSV, so that both formats are parsed by the same code. A float
+//! becomes the shortest text that reads back to the same bits.
 
 mod cell_kind;
 mod cell_texts;
@@ -27,7 +27,8 @@ use std::fmt;
 
 /// A table that is read row by row from a Parquet file.
 ///
-/// Columns hold numbers, text or booleans. An absent value is an empty cell. The checksum is that of the cells' texts.
+/// Columns hold numbers, text or booleans. An absent value is an empty cell. The checksum is computed from the texts of
+/// the cells.
 pub(super) struct ParquetRecords<R: ChunkReader + 'static> {
     file: SerializedFileReader<R>,
     file_byte_count: u64,
@@ -44,13 +45,13 @@ pub(super) struct ParquetRecords<R: ChunkReader + 'static> {
     checksum: crc32fast::Hasher,
 }
 
-/// The rest of a row group, of which some rows at a time are decoded.
+/// The rows of a row group that are not read yet; some of them are decoded.
 struct RowGroup {
     index: usize,
     columns: Vec<ColumnTexts>,
     /// The number of rows that are not decoded yet.
     undecoded_row_count: u64,
-    /// The number of decoded rows, and the index of the next one of them.
+    /// The number of decoded rows, and the index of the next decoded row.
     decoded_row_count: usize,
     next_decoded: usize,
 }
@@ -126,7 +127,7 @@ impl<R: ChunkReader + 'static> ParquetRecords<R> {
         Ok(ColumnTexts::new(reader, kind, descriptor.max_def_level()))
     }
 
-    /// Moves to the next row, and decodes more rows if necessary. Returns whether there is one.
+    /// Moves to the next row, and decodes more rows if necessary. Returns whether there is a next row.
     fn move_to_next_row(&mut self) -> Result<bool, TableError> {
         loop {
             let group = match &mut self.group {
@@ -153,10 +154,10 @@ impl<R: ChunkReader + 'static> ParquetRecords<R> {
 }
 
 impl RowGroup {
-    /// Decodes the next rows. Returns whether there are any.
+    /// Decodes the next rows. Returns whether there are more rows.
     fn decode_more(&mut self, header: &[String]) -> Result<bool, TableError> {
-        let left = usize::try_from(self.undecoded_row_count).unwrap_or(usize::MAX);
-        let count = left.min(DECODED_ROW_COUNT);
+        let remaining = usize::try_from(self.undecoded_row_count).unwrap_or(usize::MAX);
+        let count = remaining.min(DECODED_ROW_COUNT);
         for (column, name) in self.columns.iter_mut().zip(header) {
             guarded(|| column.decode(count))
                 .map_err(|error| parquet_error(Some(self.index), Some(name), &error))?;
@@ -183,7 +184,7 @@ impl<R: ChunkReader + 'static> Records for ParquetRecords<R> {
             Ok(true) => {}
             Ok(false) => return Ok(None),
             Err(error) => {
-                // What follows damage is not read: columns would no longer be in step.
+                // Rows after damage are not read: their cells could come from different rows.
                 (self.group, self.next_group) = (None, self.group_row_counts.len());
                 return Err(error);
             }
@@ -205,15 +206,6 @@ impl<R: ChunkReader + 'static> Records for ParquetRecords<R> {
     }
 }
 
-impl<R: ChunkReader + 'static> fmt::Debug for ParquetRecords<R> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ParquetRecords")
-            .field("header", &self.header)
-            .field("row_count", &self.row_count)
-            .finish_non_exhaustive()
-    }
-}
-
 /// Returns the names of the columns, without the spaces around them, as the CSV reader does.
 fn column_names(schema: &SchemaDescriptor) -> Vec<String> {
     let fields = schema.root_schema().get_fields().iter();
@@ -232,7 +224,7 @@ fn cell_kinds(schema: &SchemaDescriptor) -> Result<Vec<CellKind>, TableError> {
     kinds.collect()
 }
 
-/// Returns the number of rows of a row group. Refuses one that has not all columns, or is compressed in a way that
+/// Returns the number of rows of a row group. Refuses a row group that lacks columns, or is compressed in a way that
 /// cannot be read.
 fn check_group(
     index: usize,

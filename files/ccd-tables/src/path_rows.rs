@@ -7,12 +7,12 @@ use rigid_ccd_robot::{
     CellSolver, Path, PathAnswer, PathContact, PathError, PathOutcome, PathPoint,
 };
 
-/// A question about a path as the columns of a table, and what its answers are compared with.
+/// A question about a path, and the clearance that its answers are compared with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathQuestion {
-    /// The question, one of [`CellSolver::QUESTIONS`]. Of any contact only the status is told.
+    /// The question, one of [`CellSolver::QUESTIONS`]. For any contact, rows have only a status.
     pub question: Question,
-    /// The distance with which a closest approach is compared; its status says whether it is kept.
+    /// The clearance that a least distance is compared with. The status of a row says whether the path keeps it.
     pub clearance: Option<f64>,
 }
 
@@ -21,7 +21,7 @@ pub struct PathQuestion {
 pub struct PathRow {
     /// The row, without an id. Its time is [`Path::time`].
     pub row: ResultRow,
-    /// Where the pair of the row is, or up to where the path is free.
+    /// The point of the path of the contact or the least distance, or up to which the path is free.
     pub at: Option<PathPoint>,
     /// The limit that ended the search.
     pub limit: Option<Limit>,
@@ -29,17 +29,8 @@ pub struct PathRow {
     pub tolerance: f64,
 }
 
-impl From<Question> for PathQuestion {
-    fn from(question: Question) -> Self {
-        PathQuestion {
-            question,
-            clearance: None,
-        }
-    }
-}
-
 impl From<ResultRow> for PathRow {
-    /// Makes an answer of a row that no search has answered.
+    /// Creates the answer for a row without a search, such as a bad row.
     fn from(row: ResultRow) -> Self {
         PathRow {
             row,
@@ -81,9 +72,9 @@ impl PathQuestion {
     ) -> Result<PathRow, PathError> {
         if self.question != Question::AnyContact {
             let answer = solver.answer(self.question, path)?;
-            return Ok(PathRow::of_answer(self, &answer, path));
+            return Ok(PathRow::from_answer(self, &answer, path));
         }
-        // What touches is not measured.
+        // The search stops at any contact, and measures nothing.
         let (status, limit) = match solver.is_free(path) {
             Ok(true) => (Status::Free, None),
             Ok(false) => (Status::Contact, None),
@@ -152,7 +143,7 @@ impl PathRow {
         }
     }
 
-    fn of_answer<P: Path + ?Sized>(
+    fn from_answer<P: Path + ?Sized>(
         question: PathQuestion,
         answer: &PathAnswer<'_>,
         path: &P,
@@ -180,9 +171,9 @@ impl PathRow {
         }
     }
 
-    fn with_point<P: Path + ?Sized>(mut self, path: &P, at: PathPoint) -> Self {
-        self.row.time = Some(path.time(at));
-        self.at = Some(at);
+    fn with_point<P: Path + ?Sized>(mut self, path: &P, point: PathPoint) -> Self {
+        self.row.time = Some(path.time(point));
+        self.at = Some(point);
         self
     }
 

@@ -32,7 +32,7 @@ pub struct PathPair {
     pub duration: f64,
 }
 
-/// Which rows of a table form one path.
+/// The rule by which rows of a table form paths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Grouping {
     /// All consecutive rows with the same id form a path.
@@ -53,8 +53,8 @@ impl Grouping {
 
 /// The state of a reader of a table of paths, between two paths.
 ///
-/// Columns go by name, in any order: `id`, `t`, poses and centers as in a table of motions, and angular velocities until
-/// the next row. Rows of one path follow each other, in the order of their times.
+/// Columns are identified by their names, in any order: `id`, `t`, poses and centers as in a table of motions, and
+/// angular velocities until the next row. Rows of one path follow each other, in the order of their times.
 #[derive(Debug)]
 pub(super) struct PathReader {
     grouping: Grouping,
@@ -116,14 +116,14 @@ impl PathReader {
             return Ok(None);
         };
         let id = row::id(columns, records.current());
-        let seen = match (self.grouping, &id) {
+        let has_repeated_id = match (self.grouping, &id) {
             (Grouping::ById, Some(id)) => !self.known_id_hashes.insert(self.id_hasher.hash_one(id)),
             // Consecutive rows without an id form one path.
             (Grouping::ById, None) | (Grouping::QueryPerRow, _) => false,
         };
-        let mut at = position;
+        let mut row_position = position;
         loop {
-            row(at, columns, records.current());
+            row(row_position, columns, records.current());
             self.checksum = records.checksum();
             self.byte_count = records.consumed_bytes();
             self.next = records.advance()?;
@@ -132,7 +132,7 @@ impl PathReader {
                 Grouping::QueryPerRow => false,
             };
             match self.next {
-                Some(next) if same(records.current()) => at = next,
+                Some(next) if same(records.current()) => row_position = next,
                 _ => break,
             }
         }
@@ -141,7 +141,7 @@ impl PathReader {
         Ok(Some(FirstRow {
             row_position: position,
             id: id.unwrap_or_else(|| index.to_string()),
-            has_repeated_id: seen,
+            has_repeated_id,
         }))
     }
 
@@ -151,23 +151,24 @@ impl PathReader {
         rows: &mut MotionRows<S>,
     ) -> Result<Option<PathRow>, TableError> {
         let mut poses: Result<Vec<TimedBodyPoses>, (RowPosition, RowProblem)> = Ok(Vec::new());
-        let read = self.read(rows, |position, columns, record| {
-            let Ok(before) = &mut poses else { return };
-            let row = row::poses(columns, record).and_then(|row| check_row_follows(before, row));
+        let first_row = self.read(rows, |position, columns, record| {
+            let Ok(earlier_rows) = &mut poses else { return };
+            let row =
+                row::poses(columns, record).and_then(|row| check_row_follows(earlier_rows, row));
             match row {
-                Ok(row) => before.push(row),
+                Ok(row) => earlier_rows.push(row),
                 Err(problem) => poses = Err((position, problem)),
             }
         })?;
         let Some(FirstRow {
             row_position: position,
             id,
-            has_repeated_id: seen,
-        }) = read
+            has_repeated_id,
+        }) = first_row
         else {
             return Ok(None);
         };
-        if seen {
+        if has_repeated_id {
             let problem = RowProblem::PathNotConsecutive { id: id.clone() };
             poses = Err((position, problem));
         }
@@ -196,25 +197,25 @@ fn check_row_follows(
     poses: &[TimedBodyPoses],
     row: TimedBodyPoses,
 ) -> Result<TimedBodyPoses, RowProblem> {
-    let (time, Some(first), Some(before)) = (row.time, poses.first(), poses.last()) else {
+    let (time, Some(first), Some(previous)) = (row.time, poses.first(), poses.last()) else {
         return Ok(row);
     };
-    let [since, since_before] = [time, before.time].map(|time| time - first.time);
-    if time <= before.time {
+    let [elapsed, elapsed_before] = [time, previous.time].map(|time| time - first.time);
+    if time <= previous.time {
         return Err(RowProblem::TimeNotLater {
             time,
-            previous_time: before.time,
+            previous_time: previous.time,
         });
     }
     // Written so that NaN is refused.
-    if !(since > since_before && since.is_finite()) {
+    if !(elapsed > elapsed_before && elapsed.is_finite()) {
         return Err(RowProblem::TimeNotDistinguishable {
             time,
             first_row_time: first.time,
         });
     }
-    check_continuity('a', [before.a, row.a], since - since_before)?;
-    check_continuity('b', [before.b, row.b], since - since_before)?;
+    check_continuity('a', [previous.a, row.a], elapsed - elapsed_before)?;
+    check_continuity('b', [previous.b, row.b], elapsed - elapsed_before)?;
     Ok(row)
 }
 
@@ -222,17 +223,17 @@ fn check_row_follows(
 /// same, and the previous row's angular velocity must lead near the orientation.
 fn check_continuity(
     body: char,
-    [before, row]: [BodyPose; 2],
+    [previous, row]: [BodyPose; 2],
     duration: f64,
 ) -> Result<(), RowProblem> {
-    if before.center != row.center {
+    if previous.center != row.center {
         return Err(RowProblem::CenterChanged { body });
     }
-    if before.spin == DVec3::ZERO {
+    if previous.spin == DVec3::ZERO {
         return Ok(());
     }
-    let segment = trajectory::PosePath::new(vec![(0.0, before.pose), (duration, row.pose)])?;
-    match segment.with_angular_velocities(vec![before.spin.into()]) {
+    let segment = trajectory::PosePath::new(vec![(0.0, previous.pose), (duration, row.pose)])?;
+    match segment.with_angular_velocities(vec![previous.spin.into()]) {
         Ok(_) => Ok(()),
         Err(InputError::OutOfRange { value, .. }) => Err(RowProblem::OrientationMismatch {
             body,
@@ -246,7 +247,7 @@ impl PathPair {
     /// Creates the paths of both bodies from at least one row.
     fn new(id: &str, rows: &[TimedBodyPoses]) -> Result<Self, RowProblem> {
         let start = rows[0].time;
-        let of = |body: fn(&TimedBodyPoses) -> BodyPose| {
+        let path_of = |body: fn(&TimedBodyPoses) -> BodyPose| {
             let timed = rows.iter().map(|row| (row.time - start, body(row).pose));
             let path = trajectory::PosePath::new(timed.collect())?.about(body(&rows[0]).center)?;
             let spins = rows[..rows.len() - 1].iter().map(|row| body(row).spin);
@@ -256,7 +257,7 @@ impl PathPair {
                 Ok(path)
             }
         };
-        let (a, b) = (of(|row| row.a)?, of(|row| row.b)?);
+        let (a, b) = (path_of(|row| row.a)?, path_of(|row| row.b)?);
         Ok(PathPair {
             id: id.to_owned(),
             duration: a.end_time(),

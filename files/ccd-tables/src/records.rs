@@ -11,7 +11,7 @@ pub trait Records {
     /// Returns the names of the columns; called before the first row is read.
     ///
     /// # Errors
-    /// There are no names to be read.
+    /// The names cannot be read.
     fn header(&self) -> Result<Vec<String>, TableError>;
 
     /// Returns the row that was read last.
@@ -36,10 +36,10 @@ pub trait Records {
 
 /// A row of a table before parsing.
 pub trait Record {
-    /// Returns an error if the row has not as many cells as the header, or a cell is not text in UTF-8.
+    /// Returns an error if the row and the header have different numbers of cells, or a cell is not text in UTF-8.
     ///
     /// # Errors
-    /// What is wrong with the row.
+    /// The problem of the row.
     fn check(&self, _header: &[String]) -> Result<(), RowProblem> {
         Ok(())
     }
@@ -52,6 +52,22 @@ pub trait Record {
     /// # Errors
     /// The content of a cell that is no finite number.
     fn number(&self, cell: usize) -> Result<Option<f64>, String>;
+
+    /// Returns the finite number in a cell, which is in the column of the given name.
+    ///
+    /// # Errors
+    /// [`RowProblem::EmptyCell`], [`RowProblem::NotANumber`].
+    fn required_number(&self, cell: usize, column: &str) -> Result<f64, RowProblem> {
+        let column = || column.to_owned();
+        match self.number(cell) {
+            Ok(Some(number)) => Ok(number),
+            Ok(None) => Err(RowProblem::EmptyCell { column: column() }),
+            Err(value) => Err(RowProblem::NotANumber {
+                column: column(),
+                value,
+            }),
+        }
+    }
 
     /// Returns the text of a cell, even if others are unreadable; `None` if it is empty.
     fn text(&self, cell: usize) -> Option<String>;

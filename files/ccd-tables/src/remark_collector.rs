@@ -39,7 +39,7 @@ impl RemarkCollector {
     pub(crate) fn remarks(&self) -> Vec<Remark> {
         let has_radians = self.has_radians.load(Ordering::Relaxed);
         let spin = self.spin.get().filter(|_| !has_radians);
-        let all = [self.quaternion.get(), spin].into_iter().flatten();
-        all.copied().collect()
+        let remarks = [self.quaternion.get(), spin].into_iter().flatten();
+        remarks.copied().collect()
     }
 }

@@ -8,12 +8,13 @@ mod columns;
 mod status;
 
 pub use answers::{ANSWERS, QuestionAnswers};
-pub use columns::reordered_columns;
-pub use columns::{COLUMNS, COUNTER_COLUMNS, CellGetter, Column, ITEM_COLUMNS, Line, names};
+pub use columns::{
+    COLUMNS, COUNTER_COLUMNS, CellGetter, Column, ITEM_COLUMNS, Line, names, reordered_columns,
+};
 pub use status::Status;
 
-use crate::courses::Movements;
 use crate::motions::RowProblem;
+use crate::movements::Movements;
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Contact, HitKind, Outcome, Overlap, Question, Stats};
 use serde::Deserialize;
@@ -21,8 +22,11 @@ use std::io;
 
 /// Returns the columns of the answers to a question, without counters.
 pub fn columns(question: Question) -> Vec<Column> {
-    let more = QuestionAnswers::of(question).more_columns;
-    COLUMNS.into_iter().chain(more.iter().copied()).collect()
+    let more_columns = QuestionAnswers::of(question).more_columns;
+    COLUMNS
+        .into_iter()
+        .chain(more_columns.iter().copied())
+        .collect()
 }
 
 /// The clearance that distances are compared with, and by how much the measured bodies exceed their shapes.
@@ -36,7 +40,7 @@ pub struct ClearanceAndExcess {
 }
 
 impl ClearanceAndExcess {
-    /// Returns the reason for a clearance that is neither proven kept nor proven violated.
+    /// Returns the reason why a clearance is proven neither kept nor violated.
     fn reason_clearance_undecided(&self) -> String {
         let bounds = "--clearance is within the bounds of the distance";
         match self.clearance {
@@ -61,11 +65,11 @@ pub struct ResultRow {
     /// The time before which there is no contact; for a distance, the time at which the bodies are nearest. A free row
     /// has the end of the motions. The time is certified unless the bound is the published one.
     pub time: Option<f64>,
-    /// A lower bound of the distance at `time`; for a closest approach, at all times. Empty when free: those bodies are
-    /// proven to keep the margin, and no distance is known.
+    /// A lower bound of the distance at `time`; for a closest approach, at all times. Empty when free: the bodies are
+    /// proven to keep the margin, but their distance is not known.
     pub distance_lower: Option<f64>,
-    /// An upper bound of the distance at `time`. For a distance question it is that of the shapes, for a contact that
-    /// of the bodies, which may [exceed](ccd_core::Body::with_excess) the shapes.
+    /// An upper bound of the distance at `time`. For a question about a distance, it bounds the distance of the
+    /// shapes; for a contact, the distance of the bodies, which may [exceed](ccd_core::Body::with_excess) the shapes.
     pub distance_upper: Option<f64>,
     /// The unit normal from A to B at `time`, in the world frame.
     pub normal: [Option<f64>; 3],
@@ -89,10 +93,10 @@ pub struct ResultRow {
     /// The time after which there is no contact.
     #[serde(skip)]
     pub last_time: Option<f64>,
-    /// The name of what A is in a scene or a cell: the body, the link or the object that a link holds.
+    /// The name of A in a scene or a cell: a body, a link, or an object that is attached to a link.
     #[serde(skip)]
     pub item_a: Option<String>,
-    /// The name of what B is in a scene or a cell.
+    /// The name of B in a scene or a cell.
     #[serde(skip)]
     pub item_b: Option<String>,
     /// The counters of the work that the query took.
@@ -130,35 +134,39 @@ impl ResultRow {
 
     /// Creates the row of an answer to a question.
     pub fn new(
-        course: &Movements,
+        movements: &Movements,
         (question, answer): (Question, &Answer),
         micros: f64,
-        compared: ClearanceAndExcess,
+        clearance_and_excess: ClearanceAndExcess,
     ) -> Self {
         let outcome = &answer.outcome;
-        let status = Status::of(question, outcome, compared.clearance);
+        let status = Status::of(question, outcome, clearance_and_excess.clearance);
         let row = ResultRow {
             iterations: Some(answer.stats.iterations),
             oracle_calls: Some(answer.stats.oracle_calls),
             micros: Some(micros),
             reason: match (outcome.limit(), status) {
                 (Some(limit), _) => Some(limit.to_string()),
-                (None, Status::Unverified) => Some(compared.reason_clearance_undecided()),
+                (None, Status::Unverified) => {
+                    Some(clearance_and_excess.reason_clearance_undecided())
+                }
                 (None, _) => None,
             },
             stats: Some(answer.stats),
-            id: course.id().to_owned(),
+            id: movements.id().to_owned(),
             status,
             ..ResultRow::default()
         };
         let row = if question.is_for_a_distance() {
-            row.with_distance(outcome, course.duration())
+            row.with_distance(outcome, movements.duration())
         } else {
-            row.with_contact_outcome(outcome, course.duration())
+            row.with_contact_outcome(outcome, movements.duration())
         };
         ResultRow {
-            time: row.time.map(|time| course.table_time_rounded_down(time)),
-            last_time: row.last_time.map(|time| course.table_time_rounded_up(time)),
+            time: row.time.map(|time| movements.table_time_rounded_down(time)),
+            last_time: row
+                .last_time
+                .map(|time| movements.table_time_rounded_up(time)),
             ..row
         }
     }
@@ -174,9 +182,9 @@ impl ResultRow {
                 last_time: Some(last.time),
                 ..self.with_time(first.time).with_hit(&first.kind)
             },
-            Outcome::Unresolved(known) => ResultRow {
-                last_time: Some(known.safe_from).filter(|time| time.is_finite()),
-                ..self.with_time(known.safe_until)
+            Outcome::Unresolved(unresolved) => ResultRow {
+                last_time: Some(unresolved.safe_from).filter(|time| time.is_finite()),
+                ..self.with_time(unresolved.safe_until)
             },
             Outcome::LeastDistance { .. } => self,
         }
@@ -257,7 +265,10 @@ pub fn read(input: impl io::Read) -> Result<Vec<ResultRow>, csv::Error> {
     let header = reader.headers()?;
     let names = names(&COLUMNS);
     if !header.iter().take(names.len()).eq(names.iter().copied()) {
-        let message = format!("its columns are not those of results, {}", names.join(","));
+        let message = format!(
+            "its columns are not the columns of results, {}",
+            names.join(",")
+        );
         return Err(io::Error::new(io::ErrorKind::InvalidData, message).into());
     }
     let rows = reader.records().map(|record| record?.deserialize(None));

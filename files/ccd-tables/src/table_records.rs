@@ -11,19 +11,13 @@ use std::fs::File;
 use std::io::{self, Cursor, Read};
 
 /// The rows of a table in CSV or, with the feature `parquet`, in Parquet.
-pub struct TableRecords(Format);
-
-enum Format {
-    Csv(Box<CsvRecords<Box<dyn Read>>>),
-    #[cfg(feature = "parquet")]
-    Parquet(Box<ParquetRecords<File>>),
-}
+pub struct TableRecords(Box<dyn Records<Record = csv::ByteRecord>>);
 
 impl TableRecords {
     /// Opens a table from a file. Parquet needs a regular file, not a pipe.
     ///
-    /// The first Parquet file replaces the hook that the process calls for panics, by one that calls it for all but those of the
-    /// Parquet library, which become errors.
+    /// The first Parquet file replaces the panic hook of the process. The new hook ignores panics of the Parquet library, which
+    /// become errors, and passes all others to the old hook.
     ///
     /// # Errors
     /// Those of [`TableRecords::from_stream`], [`TableError::Parquet`], [`TableError::ColumnType`].
@@ -32,12 +26,12 @@ impl TableRecords {
         #[cfg(feature = "parquet")]
         if start == PARQUET_SIGNATURE && file.metadata().map_err(unreadable)?.is_file() {
             let records = ParquetRecords::new(file)?;
-            return Ok(TableRecords(Format::Parquet(Box::new(records))));
+            return Ok(TableRecords(Box::new(records)));
         }
         TableRecords::from_text(start, file)
     }
 
-    /// Opens a table from a stream, which cannot be Parquet: there, the last bytes say where the others are.
+    /// Opens a table from a stream. It cannot be Parquet, because the last bytes of a Parquet file locate all others.
     ///
     /// # Errors
     /// Those of [`CsvRecords::new`], [`TableError::ParquetStream`].
@@ -54,16 +48,16 @@ impl TableRecords {
         }
         let input: Box<dyn Read> = Box::new(Cursor::new(start).chain(rest));
         let records = CsvRecords::new(input)?;
-        Ok(TableRecords(Format::Csv(Box::new(records))))
+        Ok(TableRecords(Box::new(records)))
     }
 }
 
 /// Reads as many bytes as tell Parquet from text; fewer if the table is shorter.
 fn first_bytes(input: &mut impl Read) -> Result<Vec<u8>, TableError> {
     let mut start = Vec::new();
-    let most = PARQUET_SIGNATURE.len() as u64;
-    let read = input.by_ref().take(most).read_to_end(&mut start);
-    read.map_err(unreadable)?;
+    let length = PARQUET_SIGNATURE.len() as u64;
+    let result = input.by_ref().take(length).read_to_end(&mut start);
+    result.map_err(unreadable)?;
     Ok(start)
 }
 
@@ -75,42 +69,22 @@ impl Records for TableRecords {
     type Record = csv::ByteRecord;
 
     fn header(&self) -> Result<Vec<String>, TableError> {
-        match &self.0 {
-            Format::Csv(records) => records.header(),
-            #[cfg(feature = "parquet")]
-            Format::Parquet(records) => records.header(),
-        }
+        self.0.header()
     }
 
     fn current(&self) -> &csv::ByteRecord {
-        match &self.0 {
-            Format::Csv(records) => records.current(),
-            #[cfg(feature = "parquet")]
-            Format::Parquet(records) => records.current(),
-        }
+        self.0.current()
     }
 
     fn advance(&mut self) -> Result<Option<RowPosition>, TableError> {
-        match &mut self.0 {
-            Format::Csv(records) => records.advance(),
-            #[cfg(feature = "parquet")]
-            Format::Parquet(records) => records.advance(),
-        }
+        self.0.advance()
     }
 
     fn checksum(&self) -> u32 {
-        match &self.0 {
-            Format::Csv(records) => records.checksum(),
-            #[cfg(feature = "parquet")]
-            Format::Parquet(records) => records.checksum(),
-        }
+        self.0.checksum()
     }
 
     fn consumed_bytes(&self) -> u64 {
-        match &self.0 {
-            Format::Csv(records) => records.consumed_bytes(),
-            #[cfg(feature = "parquet")]
-            Format::Parquet(records) => records.consumed_bytes(),
-        }
+        self.0.consumed_bytes()
     }
 }

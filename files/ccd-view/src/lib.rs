@@ -2,9 +2,9 @@
 //!
 //! | to … | use |
 //! |---|---|
-//! | write a page of its own | [`Page::write`] |
+//! | make a whole page | [`page_html`] |
 //! | put the views on another page | [`VIEW_HTML`], [`VIEW_CSS`], [`view_scripts`] and [`views_json`] |
-//! | say what is shown | [`AnimationGroup`] of [`Animation`]s: [`ShownBody`], [`ShownContact`], [`GapCurve`] |
+//! | describe the views | [`AnimationGroup`] of [`Animation`]s: [`ShownBody`], [`ShownContact`], [`GapCurve`] |
 //!
 //! A page is one file: it needs no network and no server, and draws with [three.js](https://threejs.org) by WebGL.
 //! Meshes are drawn in single precision, relative to their centers. Texts and numbers are shown as given.
@@ -12,7 +12,7 @@
 //! # Example
 //! ```
 //! use ccd_core::Motion;
-//! use ccd_view::{DrawnMesh, AnimationGroup, Meshes, Page, ShownBody, Animation};
+//! use ccd_view::{Animation, DrawnMesh, Meshes, ShownBody, page_html};
 //! use ccd_core::glam::DVec3;
 //!
 //! let mut meshes = Meshes::default();
@@ -23,9 +23,9 @@
 //!     bodies: vec![ShownBody::new("A", triangle, "#3a9d6e", &slides)],
 //!     ..Animation::new("at rest", "Nothing moves.", 1.0)
 //! };
-//! let page = Page { title: "A triangle", meshes, groups: vec![AnimationGroup { name: String::new(), views: vec![view] }] };
-//! assert!(page.html()?.contains("Nothing moves."));
-//! # Ok::<(), ccd_view::PageError>(())
+//! let html = page_html("A triangle", &meshes, vec![view])?;
+//! assert!(html.contains("Nothing moves."));
+//! # Ok::<(), serde_json::Error>(())
 //! ```
 
 mod mesh;
@@ -35,10 +35,10 @@ mod view;
 
 pub use mesh::{DrawnMesh, Meshes};
 pub use page::{
-    Page, PageError, VIEW_CSS, VIEW_HTML, drawing_scripts, escape, fill_template, json,
-    script_elements, view_scripts, views_json,
+    VIEW_CSS, VIEW_HTML, drawing_scripts, escape, fill_template, json, page_html, script_elements,
+    view_scripts, views_json,
 };
 pub use shown_motion::{Keyframe, ShownMotion};
 pub use view::{
-    Animation, AnimationGroup, GapCurve, GapSample, ShownBody, ShownContact, UnkeptRange,
+    Animation, AnimationGroup, FailingRange, GapCurve, GapSample, ShownBody, ShownContact,
 };

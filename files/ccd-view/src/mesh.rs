@@ -33,8 +33,8 @@ impl Meshes {
     /// Adds a mesh, or finds an equal one, and returns its number.
     pub fn add(&mut self, mesh: &DrawnMesh) -> usize {
         let stored = StoredMesh::new(mesh);
-        let known = self.0.iter().position(|known| *known == stored);
-        known.unwrap_or_else(|| {
+        let equal_mesh = self.0.iter().position(|mesh| *mesh == stored);
+        equal_mesh.unwrap_or_else(|| {
             self.0.push(stored);
             self.0.len() - 1
         })
@@ -56,13 +56,13 @@ impl StoredMesh {
             vertices.fold((first, first), |(low, high), v| (low.min(*v), high.max(*v)));
         // Halved first, to avoid overflow.
         let middle = 0.5 * low + 0.5 * high;
-        let places = (mesh.vertices.iter()).flat_map(|v| (v - middle).as_vec3().to_array());
-        let places: Vec<u8> = places.flat_map(f32::to_le_bytes).collect();
+        let coordinates = (mesh.vertices.iter()).flat_map(|v| (v - middle).as_vec3().to_array());
+        let coordinates: Vec<u8> = coordinates.flat_map(f32::to_le_bytes).collect();
         let corners = mesh.faces.iter().flatten();
         let corners: Vec<u8> = corners.flat_map(|corner| corner.to_le_bytes()).collect();
         StoredMesh {
             middle: middle.to_array(),
-            vertices: BASE64_STANDARD.encode(places),
+            vertices: BASE64_STANDARD.encode(coordinates),
             faces: BASE64_STANDARD.encode(corners),
         }
     }

@@ -1,77 +1,40 @@
-//! Writes views as a page of one file, or as parts of another page.
+//! Makes HTML of views: a page of one file, or parts of another page.
 
-use crate::{AnimationGroup, Meshes};
+use crate::{Animation, AnimationGroup, Meshes};
 use serde::Serialize;
 use serde_json::Serializer;
 use serde_json::ser::{CharEscape, CompactFormatter, Formatter};
 use std::io;
-use std::path::{Path, PathBuf};
 
 /// The HTML element in which the scripts show the views.
 pub const VIEW_HTML: &str = include_str!("page/view.html");
 /// The style sheet for the element in [`VIEW_HTML`].
 pub const VIEW_CSS: &str = include_str!("page/view.css");
 
-/// The content of a page: a title, and groups of views with the meshes that they draw.
-#[derive(Clone, Debug)]
-pub struct Page<'a> {
-    /// The title of the page, as plain text.
-    pub title: &'a str,
-    /// The meshes of all bodies on the page.
-    pub meshes: Meshes,
-    /// The groups of views, among which the page's reader chooses. Several groups get a list to choose from.
-    pub groups: Vec<AnimationGroup>,
-}
-
-/// The error of a page that cannot be written.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum PageError {
-    /// The views cannot be serialised as JSON.
-    #[error("the page's data: {0}")]
-    NotSerializable(#[from] serde_json::Error),
-    /// The file of the page cannot be written.
-    #[error("cannot write {}: {source}", path.display())]
-    Write {
-        /// The file that the page was to be written to.
-        path: PathBuf,
-        /// The error of the operating system.
-        source: io::Error,
-    },
-}
-
-impl Page<'_> {
-    /// Writes the page into an HTML file. An older file of that name stays until the page is complete.
-    ///
-    /// # Errors
-    /// [`PageError`].
-    pub fn write(&self, path: &Path) -> Result<(), PageError> {
-        let html = self.html()?;
-        ccd_file::write(path, |out| out.write_all(html.as_bytes())).map_err(|source| {
-            PageError::Write {
-                path: path.to_owned(),
-                source,
-            }
-        })
-    }
-
-    /// Returns the page as HTML text.
-    ///
-    /// # Errors
-    /// [`PageError::NotSerializable`].
-    pub fn html(&self) -> Result<String, PageError> {
-        let parts = [
-            ("title", escape(self.title)),
-            (
-                "style",
-                format!("{}{VIEW_CSS}", include_str!("page/page.css")),
-            ),
-            ("view", VIEW_HTML.to_owned()),
-            ("views", views_json(&self.meshes, &self.groups)?),
-            ("scripts", view_scripts()),
-        ];
-        Ok(fill_template(include_str!("page/page.html"), &parts))
-    }
+/// Returns a page with a title, in plain text, and views, of which its reader chooses one at a time.
+///
+/// # Errors
+/// The views cannot be serialised as JSON.
+pub fn page_html(
+    title: &str,
+    meshes: &Meshes,
+    views: Vec<Animation>,
+) -> Result<String, serde_json::Error> {
+    let name = String::new();
+    let parts = [
+        ("title", escape(title)),
+        (
+            "style",
+            format!("{}{VIEW_CSS}", include_str!("page/page.css")),
+        ),
+        ("view", VIEW_HTML.to_owned()),
+        (
+            "views",
+            views_json(meshes, &[AnimationGroup { name, views }])?,
+        ),
+        ("scripts", view_scripts()),
+    ];
+    Ok(fill_template(include_str!("page/page.html"), &parts))
 }
 
 /// Returns the scripts that fill [`VIEW_HTML`] with the views of [`views_json`], which an earlier element with the id `views`
@@ -170,7 +133,7 @@ pub fn fill_template(template: &str, parts: &[(&str, String)]) -> String {
     let mut text = pieces.next().unwrap_or_default().to_owned();
     for piece in pieces {
         let (name, rest) = piece.split_once("}}").unwrap_or(("", piece));
-        if let Some((_, part)) = parts.iter().find(|(known, _)| *known == name) {
+        if let Some((_, part)) = parts.iter().find(|(part_name, _)| *part_name == name) {
             text.push_str(part);
         }
         text.push_str(rest);

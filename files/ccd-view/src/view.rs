@@ -18,7 +18,7 @@ pub struct AnimationGroup {
 pub struct Animation {
     /// The name of the view in its group's list.
     pub name: String,
-    /// The result of the query or the scene, in words.
+    /// The result of the query or the scene, as text.
     pub verdict: String,
     /// The duration of the motions, from time 0.
     pub duration: f64,
@@ -62,13 +62,13 @@ pub struct GapCurve {
     pub unit: Option<String>,
     /// The distance that is required, if any.
     pub required: Option<f64>,
-    /// The ranges of time in which the required distance is not proven to be kept, in order of time.
-    pub unkept: Vec<UnkeptRange>,
+    /// The ranges of time in which the required distance is violated or unverified, in order of time.
+    pub failing_ranges: Vec<FailingRange>,
 }
 
-/// A range of time in which a required distance is not proven to be kept.
+/// A range of time in which a required distance is violated or unverified.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct UnkeptRange {
+pub struct FailingRange {
     /// The start of the range.
     pub from: f64,
     /// The end of the range.
@@ -93,13 +93,13 @@ pub struct GapSample {
 pub struct ShownContact {
     /// The time of the contact.
     pub time: f64,
-    /// The touching features, in words.
+    /// The touching features, as text.
     pub words: String,
     /// The nearest points of both bodies, in the world frame.
     pub witnesses: Option<[DVec3; 2]>,
     /// The unit vector from the first body to the second, in the world frame.
     pub normal: Option<DVec3>,
-    /// The corners of the first body's highlighted feature: one of a vertex, two of an edge, three of each triangle of
+    /// The corners of the first body's highlighted feature: one for a vertex, two for an edge, three for each triangle of
     /// a face.
     pub highlight_a: Vec<DVec3>,
     /// The corners of the second body's highlighted feature, as in `highlight_a`.

@@ -7,7 +7,7 @@ use super::results;
 use arrow_array::RecordBatch;
 use ccd_tables::batch::{BodyPair, TimedAnswer, parallel_solver};
 use ccd_tables::columns::Columns;
-use ccd_tables::courses::{CourseRow, Movements};
+use ccd_tables::movements::{MovementRow, Movements};
 use ccd_tables::motions::{RowProblem, TableError};
 use ccd_tables::results::ResultRow;
 use rigid_ccd::Question;
@@ -97,7 +97,7 @@ fn answer_rows(
     solver: &mut Solver,
     stop: &AtomicBool,
 ) -> Vec<ResultRow> {
-    let rows: Vec<CourseRow> = piece.read_rows(columns).collect();
+    let rows: Vec<MovementRow> = piece.read_rows(columns).collect();
     let answered: Vec<RowAnswer> = (rows.iter())
         .take_while(|_| !stop.load(Ordering::Relaxed))
         .map_while(|row| answer_row(asked, row, solver))
@@ -120,7 +120,7 @@ fn settings_with_stop(asked: TableQuestion<'_>, stop: &Arc<AtomicBool>) -> Setti
 type RowAnswer = Result<TimedAnswer, RowProblem>;
 
 /// Answers one row. Returns `None` if the flag stopped the query.
-fn answer_row(asked: TableQuestion<'_>, row: &CourseRow, solver: &mut Solver) -> Option<RowAnswer> {
+fn answer_row(asked: TableQuestion<'_>, row: &MovementRow, solver: &mut Solver) -> Option<RowAnswer> {
     let answer = match row {
         Ok((_, course)) => answer_timed(asked, course, solver).map_err(RowProblem::from),
         Err(error) => Err(error.problem.clone()),
@@ -145,7 +145,7 @@ fn answer_timed(
 }
 
 /// Returns the row of results from the answer or the error of one row of the table.
-fn result_row(asked: TableQuestion<'_>, row: &CourseRow, answer: &RowAnswer) -> ResultRow {
+fn result_row(asked: TableQuestion<'_>, row: &MovementRow, answer: &RowAnswer) -> ResultRow {
     let TableQuestion {
         bodies,
         question,

@@ -7,7 +7,7 @@ use super::batch::{
 use super::input::Reader;
 use arrow_array::ArrayRef;
 use ccd_tables::columns::Columns;
-use ccd_tables::courses::{CourseRow, MovementRows, Movements};
+use ccd_tables::movements::{MovementRow, MovementRows, Movements};
 use ccd_tables::motions::{self, RowError, TableError};
 use ccd_tables::paths::Grouping;
 use rigid_ccd::Question;
@@ -22,7 +22,7 @@ pub(crate) enum RowChunk {
     /// Rows of a table of motions, as a range in a batch.
     Motions(Arc<Batch>, Range<usize>),
     /// A path and its id.
-    Path(Box<CourseRow>, ArrayRef),
+    Path(Box<MovementRow>, ArrayRef),
 }
 
 /// An iterator over the chunks of a table, in order, until the flag `stop` is set.
@@ -220,7 +220,7 @@ impl RowChunk {
     pub(crate) fn read_rows<'p>(
         &'p self,
         columns: &'p Columns,
-    ) -> impl Iterator<Item = CourseRow> + 'p {
+    ) -> impl Iterator<Item = MovementRow> + 'p {
         (0..self.row_count()).map(move |k| match self {
             RowChunk::Motions(batch, rows) => read_row(batch, rows.start + k, columns),
             RowChunk::Path(row, _) => (**row).clone(),
@@ -229,7 +229,7 @@ impl RowChunk {
 }
 
 /// Reads one row of a table of motions.
-fn read_row(batch: &Arc<Batch>, at: usize, columns: &Columns) -> CourseRow {
+fn read_row(batch: &Arc<Batch>, at: usize, columns: &Columns) -> MovementRow {
     let row = batch.first + at;
     let position = motions::RowPosition { row, line: None };
     let record = Row {

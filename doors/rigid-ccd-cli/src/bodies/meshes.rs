@@ -7,8 +7,8 @@ use clap::{Args, ValueEnum};
 /// The options for reading mesh files, and for their convex pieces.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct MeshArgs {
-    /// Unit of all lengths: files in another unit (glTF: metres; COLLADA: its own; others as in part.stl@mm) are converted to it, all
-    /// other numbers are taken to be in it [default: the numbers of the files]
+    /// Unit of all lengths. Files in another unit are converted to it: glTF is in metres, COLLADA names its unit, others as in
+    /// part.stl@mm. All other numbers are taken to be in it [default: the numbers of the files]
     #[arg(long, value_name = "UNIT", value_parser = named_value_parser(UNITS), hide_possible_values = false)]
     unit: Option<Unit>,
     /// Multiply the coordinates of all mesh files by this factor; for one file, write part.stl@scale=0.001
@@ -43,23 +43,27 @@ enum PiecesArg {
 
 fn parse_scale_factor(text: &str) -> Result<f64, String> {
     let factor: f64 = text.parse().map_err(|_| "it is no number".to_owned())?;
-    let allowed = Adjustments::NONE.scaled(factor);
-    allowed.map(|_| factor).map_err(|error| error.to_string())
+    let scaled = Adjustments::NONE.scaled(factor);
+    scaled.map(|_| factor).map_err(|error| error.to_string())
 }
 
 impl MeshArgs {
     /// Returns the options for unit, scale, mirror and surface as the library's adjustments of a mesh.
     pub(crate) fn adjustments(&self) -> Adjustments {
-        let all = Adjustments::NONE;
-        let all = self.unit.map_or(all, |unit| all.with_target_unit(unit));
+        let adjustments = Adjustments::NONE;
+        let adjustments = self
+            .unit
+            .map_or(adjustments, |unit| adjustments.with_target_unit(unit));
         // The parser has refused invalid factors.
-        let scaled = self.scale.and_then(|scale| all.scaled(scale).ok());
-        let all = scaled.unwrap_or(all);
-        let all = self.mirror.map_or(all, |axis| all.mirrored(axis));
+        let scaled = self.scale.and_then(|scale| adjustments.scaled(scale).ok());
+        let adjustments = scaled.unwrap_or(adjustments);
+        let adjustments = self
+            .mirror
+            .map_or(adjustments, |axis| adjustments.mirrored(axis));
         if self.surface {
-            all.treated_as_hollow()
+            adjustments.treated_as_hollow()
         } else {
-            all
+            adjustments
         }
     }
 

@@ -2,10 +2,8 @@
 
 use crate::bodies::meshes::MeshArgs;
 use crate::bodies::size::{sides_text, warn_of_different_units};
-use crate::console::print_error;
-use crate::console::print_escaped_to_stderr;
-use crate::console::print_remarks;
 use crate::console::progress::Progress;
+use crate::console::{print_error, print_escaped_to_stderr, print_remarks};
 use crate::files::{Rows, is_same_file};
 use crate::options::solver_kind::SolverKind;
 use anyhow::{Context, Error, Result};
@@ -20,8 +18,9 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, Args)]
 pub(crate) struct BodiesArgs {
     /// Body A: a mesh file (.gltf, .glb, .dae, .obj, .stl, .ply, .off), a part of one by its name or number
-    /// (scene.glb#lid), either with adjustments (part.stl@mm, @scale=0.001, @mirror=x, @surface), a prepared body (.ccd, see `ccd decompose`), box:HX,HY,HZ (half extents), sphere:R,
-    /// capsule:R,HALF_HEIGHT, cylinder:R,HALF_HEIGHT or cone:R,HALF_HEIGHT
+    /// (scene.glb#lid), either with adjustments (part.stl@mm, @scale=0.001, @mirror=x, @surface), a prepared body
+    /// (.ccd, see `ccd decompose`), box:HX,HY,HZ (half extents), sphere:R, capsule:R,HALF_HEIGHT,
+    /// cylinder:R,HALF_HEIGHT or cone:R,HALF_HEIGHT
     #[arg(long, value_name = "BODY")]
     pub(crate) a: String,
     /// Body B, in the same forms as body A; a file given for both is loaded once
@@ -53,10 +52,11 @@ impl BodiesArgs {
 
     /// Loads both bodies, and prepares them for a solver of the given kind. If `quiet`, messages about them are
     /// suppressed.
-    pub(crate) fn load(&self, method: SolverKind, quiet: bool) -> Result<Pair> {
+    pub(crate) fn load(&self, solver_kind: SolverKind, quiet: bool) -> Result<Pair> {
         let sources = self.sources()?;
         let [(_, source_a), (_, source_b)] = &sources;
-        let load = |option, text, source| self.load_body((option, text), source, method, quiet);
+        let load =
+            |option, text, source| self.load_body((option, text), source, solver_kind, quiet);
         let (a, unit_a) = load("--a", &self.a, source_a)?;
         let b = if is_same_source(source_a, source_b) {
             None
@@ -81,7 +81,7 @@ impl BodiesArgs {
         &self,
         (option, text): (&str, &str),
         source: &BodySource,
-        method: SolverKind,
+        solver_kind: SolverKind,
         quiet: bool,
     ) -> Result<(Body, Option<Unit>)> {
         let choice = self.meshes.choice();
@@ -92,10 +92,10 @@ impl BodiesArgs {
             report,
             unit,
         } = loaded.with_context(|| option.to_owned())?;
-        if method.schedule.uses_hull_trees() && body.hull_tree().is_none() {
+        if solver_kind.schedule.uses_hull_trees() && body.hull_tree().is_none() {
             body = attach_hull_tree(body).with_context(|| format!("{option} {text}"))?;
         }
-        method.prepare_body(&body);
+        solver_kind.prepare_body(&body);
         drop(progress);
         let remarks = &report.repairs.remarks;
         if !quiet {
@@ -135,11 +135,11 @@ impl Pair {
 }
 
 /// Returns a warning if two files have different units, or if the unit of only one file is known; `None` otherwise.
-/// Primitives such as boxes have no unit: their numbers are the user's own.
+/// Primitives such as boxes have no unit.
 fn mixed_units_warning(
     [(source_a, a), (source_b, b)]: [(&BodySource, Option<Unit>); 2],
 ) -> Option<String> {
-    let (known, unit, other) = match (a, b) {
+    let (file_with_unit, unit, other_file) = match (a, b) {
         (Some(a), Some(b)) if a != b => {
             return Some(format!(
                 "--a is in {a}, --b in {b}, and the numbers of both are kept: give --unit {a} or --unit {b} to convert them"
@@ -150,7 +150,7 @@ fn mixed_units_warning(
         _ => return None,
     };
     Some(format!(
-        "{known} is in {unit}, {other} does not say its unit, and its numbers are taken to be in {unit}, too: give --unit \
+        "{file_with_unit} is in {unit}, {other_file} does not say its unit, and its numbers are taken to be in {unit}, too: give --unit \
          {unit} if they are, or else say in which unit they are, such as part.stl@in"
     ))
 }

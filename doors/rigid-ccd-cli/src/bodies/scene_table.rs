@@ -1,9 +1,7 @@
 //! Reads the table of a scene: one row for each body.
 
 use crate::bodies::meshes::MeshArgs;
-use crate::console::print_error;
-use crate::console::print_escaped_to_stderr;
-use crate::console::print_remarks;
+use crate::console::{print_error, print_escaped_to_stderr, print_remarks};
 use crate::files::{input_name, open_table, refuse_overwriting_input};
 use crate::picture::DrawnBody;
 use anyhow::{Context, Result, anyhow, bail};
@@ -22,14 +20,6 @@ use std::path::{Path, PathBuf};
 /// The time at which all motions end by default.
 const DEFAULT_DURATION: f64 = 1.0;
 
-/// The options for reading a scene's table: how meshes become bodies, and when all motions end.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SceneArgs<'a> {
-    pub(crate) meshes: &'a MeshArgs,
-    /// The time at which all motions end; `None` for the default.
-    pub(crate) duration: Option<f64>,
-}
-
 /// The bodies of a scene, loaded from its table.
 pub(crate) struct SceneTable {
     /// The loaded bodies, by their descriptions in the column `body`.
@@ -46,16 +36,16 @@ pub(crate) struct SceneTable {
     is_default_duration: bool,
 }
 
-/// Reads the table that the command-line option `option` names, and loads each distinct body once. Refuses an output
-/// that would overwrite a file that is read.
+/// Reads the table that the command-line option `option` names, and loads each distinct body once. All motions end at
+/// `duration`, or at the default if that is `None`. Refuses an output that would overwrite a file that is read.
 pub(crate) fn read(
     (option, path): (&str, &Path),
-    how: SceneArgs<'_>,
+    (meshes, duration_arg): (&MeshArgs, Option<f64>),
     out: &Path,
 ) -> Result<SceneTable> {
     refuse_overwriting_input((option, path), ("--out", out))?;
     let name = || input_name(path);
-    let duration = how.duration.unwrap_or(DEFAULT_DURATION);
+    let duration = duration_arg.unwrap_or(DEFAULT_DURATION);
     let (records, _) = open_table(option, path)?;
     let (rows, remarks) = read_rows(records, duration).with_context(name)?;
     let mut scene = SceneTable {
@@ -65,11 +55,11 @@ pub(crate) fn read(
         remarks,
         rows: Vec::new(),
         duration,
-        is_default_duration: how.duration.is_none(),
+        is_default_duration: duration_arg.is_none(),
     };
     for (position, row) in rows {
         scene
-            .load_body_once(&row.body_text, how)
+            .load_body_once(&row.body_text, meshes)
             .with_context(|| format!("{}: {position}", name()))?;
         scene.rows.push(row);
     }
@@ -119,20 +109,20 @@ const LIKELY_TIME_COLUMNS: [&str; 3] = ["duration", "t", "time"];
 
 /// Returns the message for a bad row of a scene's table, which names the option `--duration` in place of a column.
 fn row_problem_message(problem: &RowProblem) -> String {
-    let words = problem.to_string().replace("column duration", "--duration");
+    let message = problem.to_string().replace("column duration", "--duration");
     match problem {
         RowProblem::WrongCellCount { .. } => {
-            format!("{words}; a body with commas in it is quoted: \"box:1,1,0.1\"")
+            format!("{message}; a body with commas in it is quoted: \"box:1,1,0.1\"")
         }
-        _ => words,
+        _ => message,
     }
 }
 
 /// Returns an error if two rows have the same id, because the table of contacts names bodies by their ids.
 fn refuse_equal_ids(rows: &[RowWithPosition]) -> Result<()> {
-    let mut known = HashMap::new();
+    let mut first_positions = HashMap::new();
     for (position, BodyRow { id, .. }) in rows {
-        if let Some(first) = known.insert(id, position) {
+        if let Some(first) = first_positions.insert(id, position) {
             bail!("{first} and {position} have the same id {id:?}; give each body its own");
         }
     }
@@ -140,13 +130,12 @@ fn refuse_equal_ids(rows: &[RowWithPosition]) -> Result<()> {
 }
 
 impl SceneTable {
-    fn load_body_once(&mut self, text: &str, how: SceneArgs<'_>) -> Result<()> {
+    fn load_body_once(&mut self, text: &str, meshes: &MeshArgs) -> Result<()> {
         if self.bodies.contains_key(text) {
             return Ok(());
         }
         let source: BodySource = text.parse()?;
-        let choice = how.meshes.choice();
-        let prepared = source.load_adjusted(&how.meshes.adjustments(), choice)?;
+        let prepared = source.load_adjusted(&meshes.adjustments(), meshes.choice())?;
         self.load_messages
             .push(format!("{text}: {}", prepared.report));
         self.bodies.insert(text.to_owned(), prepared.body);
@@ -171,7 +160,7 @@ impl SceneTable {
 
     /// Returns the bodies to draw, in the order of their rows.
     pub(crate) fn bodies_to_draw(&self) -> Vec<DrawnBody<'_>> {
-        let shown = self.rows.iter().filter_map(|row| {
+        let bodies = self.rows.iter().filter_map(|row| {
             let BodyRow {
                 id,
                 body_text: text,
@@ -187,7 +176,7 @@ impl SceneTable {
                 motion: *motion,
             })
         });
-        shown.collect()
+        bodies.collect()
     }
 
     /// Returns the ids of the bodies, in the order of their rows.

@@ -16,11 +16,11 @@ pub(crate) fn sides_text(body: &Body) -> String {
 
 /// Warns if two bodies may have different units of length.
 pub(crate) fn warn_of_different_units(a: &Body, b: &Body) {
-    let [of_a, of_b] = [a, b].map(Remark::body_size);
-    let (large, small, ratio) = if of_a > of_b {
-        ("--a", "--b", of_a / of_b)
+    let [size_a, size_b] = [a, b].map(Remark::body_size);
+    let (large, small, ratio) = if size_a > size_b {
+        ("--a", "--b", size_a / size_b)
     } else {
-        ("--b", "--a", of_b / of_a)
+        ("--b", "--a", size_b / size_a)
     };
     if ratio > MAX_USUAL_SIZE_RATIO && ratio.is_finite() {
         print_error(&format!(

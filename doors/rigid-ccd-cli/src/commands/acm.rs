@@ -1,16 +1,13 @@
 //! `ccd acm`: decides which pairs of a robot's links can touch.
 
-use crate::console::RunOutcome;
-use crate::console::interruption;
-use crate::console::print_error;
-use crate::console::print_escaped_to_stderr;
 use crate::console::progress::Progress;
-use crate::files::output::{Output, is_standard_output};
-use crate::files::refuse_overwriting_input;
+use crate::console::{RunOutcome, interruption, print_error, print_escaped_to_stderr};
+use crate::files::output::Output;
+use crate::files::refuse_shared_files;
 use crate::files::table::TableWriter;
 use crate::options::numbers::parse_seconds;
-use crate::robots::loading::{RobotArgs, refuse_overwriting_any};
-use anyhow::{Result, bail};
+use crate::robots::loading::RobotArgs;
+use anyhow::Result;
 use clap::Args;
 use rigid_ccd_robot::{LinkContactClass, LinkContactSettings, Robot};
 use std::path::PathBuf;
@@ -18,14 +15,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// Decide which pairs of a robot's links can touch, and write those that need no check as SRDF
+/// Decide which pairs of a robot's links can touch, and write an SRDF that disables the pairs without need of a check
 #[derive(Clone, Debug, Args)]
 #[command(mut_arg("urdf", |urdf| urdf.required(true)), after_help = AFTER_HELP)]
 pub(crate) struct AcmArgs {
     #[command(flatten)]
     robot: RobotArgs,
-    /// Examine at most N boxes of configurations for a pair in the mean; a larger number decides more pairs, but none that touch
-    /// without depth, as parts that slide on each other
+    /// Examine at most N boxes of configurations for each pair on average; a larger number decides more pairs, but none that
+    /// touch without overlap, such as parts that slide on each other
     #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(1..))]
     boxes: u32,
     /// Leave the pairs undecided that are not decided after this time, in seconds [default: none]
@@ -43,25 +40,25 @@ pub(crate) struct AcmArgs {
 }
 
 const AFTER_HELP: &str = "\
-The SRDF disables neighbours, unless the robot's file has them checked as MJCF does beside the world, and pairs that are
-proven to touch never or always, over all configurations within the limits of the joints. Pairs that never touch may come
-near each other: with a clearance they are to be checked. MoveIt's own file samples configurations.
+The SRDF disables pairs that are proven to touch never or always, over all configurations within the limits of the joints.
+It also disables neighbours, unless the robot's file has them checked, as MJCF does for links next to the world. Pairs that
+never touch may still come near each other: check them if they must keep a clearance.
 
 Table of pairs (--report):
   link1, link2       the links
-  class              never, always, always-as-enclosed, sometimes or undecided; as enclosed if the bodies always touch, but
-                     it is not proven of the shapes that they exceed: such a pair is not disabled
-  apart_fraction        fraction of the configurations that are proven apart
+  class              never, always, always-as-enclosed, sometimes or undecided; always-as-enclosed: the bodies always touch,
+                     but this is not proven of the shapes inside them; such a pair is not disabled
+  apart_fraction     fraction of the configurations that are proven apart
   undecided_fraction, least_distance
                      fraction of the configurations for which nothing is proven, and the least distance that was found; both
                      for undecided pairs alone
   touching_JOINT, apart_JOINT
-                     a configuration that touches, and one that does not
+                     a configuration in which the links touch, and one in which they are apart
 
-Ctrl-C ends the search as --deadline does: what is decided by then is written. A second one ends the command.
+Ctrl-C ends the search as --deadline does: what is decided by then is written. A second Ctrl-C ends the command.
 
-Exit code: 0 if the pairs are examined, also if some stay undecided; 3 if Ctrl-C ended that; 2 for bad input, 1 if nothing
-can be written.
+Exit code: 0 if all pairs were examined, even if some stay undecided; 3 if Ctrl-C ended the search; 2 for bad input; 1 if
+nothing can be written.
 
 Examples:
   ccd acm arm.urdf --out arm.srdf
@@ -71,14 +68,7 @@ Examples:
 pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
     let mut outputs = vec![("--out", args.out.as_path())];
     outputs.extend(args.report.iter().map(|path| ("--report", path.as_path())));
-    refuse_overwriting_any(args.robot.files(), &outputs)?;
-    if let Some(report) = &args.report {
-        if is_standard_output(&args.out) && is_standard_output(report) {
-            bail!("--out - and --report - are both standard output; give one of them a file");
-        }
-        refuse_overwriting_input(("--out", &args.out), ("--report", report))?;
-        refuse_overwriting_input(("--report", report), ("--out", &args.out))?;
-    }
+    refuse_shared_files(args.robot.files(), &outputs)?;
     let out = Output::claim(&args.out)?;
     let report = args
         .report
@@ -97,8 +87,8 @@ pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
     if !args.quiet {
         print_escaped_to_stderr(&summary(&classes));
     }
-    let is_whole = classes.iter().all(|(_, class)| class.is_decided());
-    Ok(if stop.load(Ordering::Relaxed) && !is_whole {
+    let all_decided = classes.iter().all(|(_, class)| class.is_decided());
+    Ok(if stop.load(Ordering::Relaxed) && !all_decided {
         print_error("interrupted: what was decided by then is written");
         RunOutcome::SomeRowsUnproven
     } else {
@@ -106,7 +96,7 @@ pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
     })
 }
 
-/// Decides about all pairs, and shows how many are examined.
+/// Classifies all pairs, and shows how many are decided.
 fn classify(
     robot: &Robot,
     args: &AcmArgs,
@@ -118,9 +108,9 @@ fn classify(
         stop: Some(Arc::clone(stop)),
     };
     let progress = Progress::start_single_step("examining pairs of links", args.quiet);
-    let show = |decided: usize, all: usize| {
+    let show = |decided: usize, pair_count: usize| {
         progress.set_message(&format!(
-            "{decided} of {all} pairs of links are decided; Ctrl-C, --deadline or fewer --boxes leave the others undecided"
+            "{decided} of {pair_count} pairs of links are decided; Ctrl-C, --deadline or fewer --boxes leave the others undecided"
         ));
     };
     Ok(robot.classify_link_contacts(&settings, show)?)
@@ -137,18 +127,18 @@ fn class_name(class: &LinkContactClass) -> &'static str {
 }
 
 fn summary(classes: &[([usize; 2], LinkContactClass)]) -> String {
-    let kinds = [
+    let class_names = [
         "never",
         "sometimes",
         "always",
         "always-as-enclosed",
         "undecided",
     ];
-    let counts = kinds.map(|name| {
-        let found = classes
+    let counts = class_names.map(|name| {
+        let of_class = classes
             .iter()
             .filter(|(_, class)| class_name(class) == name);
-        match (name, found.count()) {
+        match (name, of_class.count()) {
             ("undecided", count) => format!("{count} are undecided"),
             ("always-as-enclosed", count) => {
                 format!("{count} always touch as enclosures, their shapes perhaps not")

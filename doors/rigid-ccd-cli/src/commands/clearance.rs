@@ -3,18 +3,17 @@
 mod page;
 mod report;
 
-use crate::console::RunOutcome;
-use crate::console::print_error;
-use crate::console::print_remarks;
+use crate::console::{RunOutcome, print_error, print_remarks};
 use crate::files::html::write_page;
 use crate::files::output::{self, Output, is_standard_output};
-use crate::files::{input_name, refuse_overwriting_input};
+use crate::files::{input_name, refuse_shared_files};
 use crate::robots::joint_values::{JointsArgs, length, tolerance_length};
 use crate::robots::loading::CellArgs;
 use crate::robots::page::{RobotPainter, halvings};
 use crate::robots::path_table::TablePath;
-use crate::robots::robot_paths::{FoundPaths, RobotPaths};
+use crate::robots::robot_paths::{RobotPaths, SelectedPaths};
 use anyhow::{Result, bail};
+use ccd_view::page_html;
 use clap::Args;
 use report::Report;
 use rigid_ccd::Settings;
@@ -22,7 +21,7 @@ use rigid_ccd::answer::ClearanceVerdict;
 use rigid_ccd_robot::{Cell, RangeSettings};
 use std::path::PathBuf;
 
-/// Prove where a mechanism keeps a clearance, over a joint or along a path
+/// Prove where a mechanism keeps a clearance, over the range of a joint or along a path
 #[derive(Clone, Debug, Args)]
 #[command(
     mut_arg("urdf", |urdf| urdf.required(true)),
@@ -34,16 +33,17 @@ pub(crate) struct ClearanceArgs {
     cell: CellArgs,
     #[command(flatten)]
     joints: JointsArgs,
-    /// Table with a path, CSV or Parquet, as `ccd edges` reads it; in place of ranges, for closed loops of joints
+    /// Table with one path, CSV or Parquet, in the format of `ccd edges`; it replaces ranges of --joint, for instance
+    /// for closed loops of joints
     #[arg(long, value_name = "TABLE")]
     path: Option<PathBuf>,
-    /// How far points of links may be from where the path places them, such as 0.1mm
+    /// Greatest distance of points of links from where the path places them, such as 0.1mm
     #[arg(long, value_name = "LENGTH", default_value = "0", value_parser = length)]
     pose_error: f64,
     /// Clearance that all pairs have to keep, such as 0.3mm
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     require: Option<f64>,
-    /// Width of the bounds of a distance, such as 0.001mm
+    /// Greatest difference between the bounds of a distance, such as 0.001mm
     #[arg(long, value_name = "LENGTH", default_value = "0.000001", value_parser = tolerance_length)]
     tolerance: f64,
     /// Length of the shortest ranges that are examined, as a fraction of the path from one configuration to the next
@@ -61,12 +61,13 @@ pub(crate) struct ClearanceArgs {
 }
 
 const AFTER_HELP: &str = "\
-Prints bounds of the least distance of all pairs that are checked, with the pair and where it is. With --require also the
-ranges in which all pairs certainly keep the clearance, in which one certainly violates it, and the rest. The ends of kept
-ranges are limits of the joints that would keep it. Paddings and clearances of the cell do not count, as in
-`ccd edges --question closest-approach`; a clearance between two links checks them. Times are those of column `t` of --path; without it, each segment takes 1.
-The curve of --json has at most 512 ranges, each with bounds of the least distance in it. Without --joint and --path the only
-joint moves over all its limits.
+Prints bounds of the least distance of all pairs that are checked, with the nearest pair and its place on the path. With
+--require it also prints the ranges in which all pairs certainly keep the clearance, in which a pair certainly violates
+it, and the undecided ranges. Joint limits at the ends of kept ranges would keep the clearance.
+Paddings and clearances of the cell do not count, as in `ccd edges --question closest-approach`; but a clearance between two
+neighbouring links has the pair checked. Times are those of column `t` of --path; without it, each segment takes 1. The curve
+of --json has at most 512 ranges, each with bounds of the least distance in it. Without --joint and --path, a robot of one
+joint moves over the whole range of the joint.
 
 Exit codes:
   0  the clearance is kept everywhere, or none is required
@@ -86,17 +87,15 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
         if is_standard_output(html) {
             bail!("--html - and the report are both standard output; give --html a file");
         }
-        args.cell.refuse_overwriting(&[("--html", html)])?;
-        if let Some(path) = &args.path {
-            refuse_overwriting_input(("--path", path), ("--html", html))?;
-        }
+        let path = args.path.iter().map(|path| ("--path", path.as_path()));
+        refuse_shared_files(args.cell.files().chain(path), &[("--html", html)])?;
     }
     let html = args.html.as_deref().map(Output::claim).transpose()?;
     let mut cell = args.cell.load(args.quiet)?;
     if cell.remove_paddings_and_clearances() {
         print_error(
-            "the distances of [padding] and [[clearance]] do not count: those are measured that all pairs keep; \
-             `ccd edges` asks whether they are kept",
+            "the distances of [padding] and [[clearance]] do not count: the distances of the bodies are measured; \
+             `ccd edges` asks whether paddings and clearances are kept",
         );
     }
     print_remarks(cell.remark_on_tolerance(args.tolerance));
@@ -112,12 +111,12 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
     }
     let mut ranges = Vec::new();
     if let Some(clearance) = args.require {
-        let how = RangeSettings {
+        let range_settings = RangeSettings {
             resolution: args.resolution,
             max_pose_error: args.pose_error,
         };
         solver.set_settings(args.settings(clearance));
-        ranges = solver.clearance_ranges(&path.configurations, how)?;
+        ranges = solver.clearance_ranges(&path.configurations, range_settings)?;
     }
     let report = Report {
         cell: &cell,
@@ -142,7 +141,8 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
         let title = input_name(args.cell.robot.path());
         let mut view = painter.animation(&mut solver, &path, 0.0)?;
         page::show_report(&report, &mut view);
-        write_page(&painter.page(&title, vec![view]), html, args.quiet)?;
+        let page = page_html(&title, painter.meshes(), vec![view])?;
+        write_page(&page, html, args.quiet)?;
     }
     Ok(outcome(&report))
 }
@@ -169,17 +169,17 @@ impl ClearanceArgs {
         }
     }
 
-    /// Reads the one path that is examined.
+    /// Reads the path to examine.
     fn read_path(&self, cell: &Cell) -> Result<TablePath> {
-        let asked = RobotPaths {
+        let robot_paths = RobotPaths {
             table: self.path.as_deref(),
-            joints: self.joints.given(),
+            joints: &self.joints,
             ids: &[],
         };
-        let FoundPaths {
+        let SelectedPaths {
             mut paths,
             problems,
-        } = asked.read(cell)?;
+        } = robot_paths.read(cell)?;
         if let Some(problem) = problems.into_iter().next() {
             bail!(problem);
         }

@@ -1,8 +1,7 @@
 //! `ccd completions`: completion scripts for shells.
 
 use super::Cli;
-use crate::console::RunOutcome;
-use crate::console::standard_output;
+use crate::console::{RunOutcome, standard_output};
 use crate::files::output::OutputError;
 use anyhow::Result;
 use clap::{Args, CommandFactory};

@@ -122,8 +122,8 @@ pub(crate) fn run(args: &DecomposeArgs) -> Result<RunOutcome> {
     let (model, body) = args.build(&mesh, choice).with_context(|| name.clone())?;
     let build_ms = start.elapsed().as_secs_f64() * 1e3;
     drop(spinner);
-    if let Some((form, out)) = out {
-        form.write(&model, out)?;
+    if let Some((output_kind, out)) = out {
+        output_kind.write(&model, out)?;
     }
     let statistics = Statistics::new((name, unit), &model, &body, build_ms);
     match args.format {
@@ -136,9 +136,9 @@ pub(crate) fn run(args: &DecomposeArgs) -> Result<RunOutcome> {
 /// Reserves the output file before the decomposition. So a file that cannot be written is reported at once, not after
 /// the long work.
 fn claim(out: &Path, mesh: &Path) -> Result<(OutputKind, Output)> {
-    let form = OutputKind::from_extension_of(out)?;
+    let output_kind = OutputKind::from_extension_of(out)?;
     refuse_overwriting_input(("the mesh", mesh), ("--out", out))?;
-    Ok((form, Output::claim(out)?))
+    Ok((output_kind, Output::claim(out)?))
 }
 
 fn refuse_prepared_input(mesh: &Path) -> Result<()> {

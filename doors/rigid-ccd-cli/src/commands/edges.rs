@@ -4,14 +4,13 @@ mod args;
 
 pub(crate) use args::EdgesArgs;
 
-use crate::console::RunOutcome;
-use crate::console::print_remarks;
 use crate::console::progress::Progress;
-use crate::files::input_name;
+use crate::console::{RunOutcome, print_remarks};
 use crate::files::output::OutputError;
+use crate::files::{input_name, refuse_shared_files};
 use crate::robots::path_table::{PathTable, TablePath};
 use crate::rows::bad_rows::BadRowCounter;
-use crate::rows::certificates::{CellCertificates, begin_or_resume};
+use crate::rows::certificates::CellCertificates;
 use crate::rows::counts::StatusCounts;
 use crate::rows::raised_tolerances::RaisedTolerances;
 use crate::rows::resumable::{
@@ -34,9 +33,9 @@ use std::iter::once;
 use std::time::Instant;
 
 /// Runs `ccd edges`: answers all valid rows; an invalid row gets the status `error` and a reason.
-pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
-    args.cell.refuse_overwriting(&[("--out", &args.out)])?;
-    crate::files::refuse_overwriting_input(("--edges", &args.edges), ("--out", &args.out))?;
+pub(crate) fn run(args: &EdgesArgs, matches: &ArgMatches) -> Result<RunOutcome> {
+    let inputs = args.cell.files().chain([("--edges", args.edges.as_path())]);
+    refuse_shared_files(inputs, &[("--out", &args.out)])?;
     if args.check && args.question == Question::ClosestApproach && args.clearance == 0.0 {
         bail!(
             "--check needs --clearance with --question closest-approach: a distance alone is neither good nor bad"
@@ -59,24 +58,27 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
     let claimed = ClaimedFiles::claim(&files)?;
     let cell = args.cell.load(args.quiet)?;
     print_remarks(cell.remark_on_tolerance(args.tolerance));
-    let (mut table, length) =
-        PathTable::open("--edges", &args.edges, cell.robot(), args.joints.given())
-            .with_context(|| input_name(&args.edges))?;
+    let (mut table, length) = PathTable::open("--edges", &args.edges, cell.robot(), &args.joints)
+        .with_context(|| input_name(&args.edges))?;
     let certificates = args
         .certificates
         .as_deref()
         .map(|folder| CellCertificates::new(folder, &cell, args.settings()));
     let certificates = certificates.transpose()?;
-    let options = recorded_options(args, given, &cell)?;
+    let options = recorded_options(args, matches, &cell)?;
     let (mut outputs, earlier) = match OpenedTables::new(&files, claimed, &options)? {
         OpenedTables::Unfinished(outputs, earlier) => (*outputs, earlier),
         OpenedTables::Finished(end) => {
             resumable::check_finished(&files, &mut table, end)?;
-            begin_or_resume(&certificates, Some(end))?;
+            if let Some(certificates) = &certificates {
+                certificates.begin_or_resume(Some(end))?;
+            }
             return Ok(resumable::report_outcome(&files, end));
         }
     };
-    begin_or_resume(&certificates, earlier)?;
+    if let Some(certificates) = &certificates {
+        certificates.begin_or_resume(earlier)?;
+    }
     if args.resume {
         resumable::report(&files, earlier);
     }
@@ -157,8 +159,8 @@ impl Batches<Result<TablePath, RowError>> for EdgesRun<'_> {
         paths: &[Result<TablePath, RowError>],
     ) -> Result<(), OutputError> {
         if self.remark.is_none() {
-            let mut read = paths.iter().flatten();
-            self.remark = read.find_map(|path| path.remark(self.robot));
+            let mut paths_read = paths.iter().flatten();
+            self.remark = paths_read.find_map(|path| path.remark(self.robot));
         }
         let (args, progress) = (self.args, &self.progress);
         let start = Instant::now();
@@ -190,7 +192,7 @@ impl Batches<Result<TablePath, RowError>> for EdgesRun<'_> {
 }
 
 impl EdgesRun<'_> {
-    /// Writes the proofs of paths; one that cannot be proven counts as bad.
+    /// Writes the proofs of paths. A path that cannot be proven counts as bad.
     fn prove_and_write(
         &mut self,
         paths: &[Result<TablePath, RowError>],
@@ -199,11 +201,11 @@ impl EdgesRun<'_> {
             return Ok(());
         };
         let paths: Vec<&TablePath> = paths.iter().filter_map(|path| path.as_ref().ok()).collect();
-        for few in paths.chunks(PROVEN_BATCH_ROWS) {
-            let proven = self.solver.map(few, |solver, path| {
+        for batch in paths.chunks(PROVEN_BATCH_ROWS) {
+            let proven = self.solver.map(batch, |solver, path| {
                 certificates.prove(solver, &path.configurations)
             });
-            for (path, proofs) in few.iter().zip(proven) {
+            for (path, proofs) in batch.iter().zip(proven) {
                 match proofs {
                     Ok(proofs) => {
                         for (segment, proof) in proofs {
@@ -247,7 +249,7 @@ impl EdgesRun<'_> {
 /// The number of paths whose proofs are in memory at the same time.
 const PROVEN_BATCH_ROWS: usize = 64;
 
-/// Answers the question about a path, and takes the time.
+/// Answers the question about a path, and measures the time.
 fn answer(args: &EdgesArgs, solver: &mut CellSolver<'_>, path: &TablePath) -> PathRow {
     let start = Instant::now();
     let question = PathQuestion {
@@ -268,11 +270,11 @@ fn answer(args: &EdgesArgs, solver: &mut CellSolver<'_>, path: &TablePath) -> Pa
     }
 }
 
-/// Returns the version, the options and the checksums of the files that determine the table. The checksum of the edges is in each
-/// checkpoint.
-fn recorded_options(args: &EdgesArgs, given: &ArgMatches, cell: &Cell) -> Result<String> {
+/// Returns the version, the options and the checksums of the files that determine the table. The checksum of the edges
+/// is in each checkpoint.
+fn recorded_options(args: &EdgesArgs, matches: &ArgMatches, cell: &Cell) -> Result<String> {
     let version = ("ccd".to_owned(), env!("CARGO_PKG_VERSION").to_owned());
-    let options = option_values::<EdgesArgs>(given, &UNRECORDED_OPTIONS);
+    let options = option_values::<EdgesArgs>(matches, &UNRECORDED_OPTIONS);
     let rows = ("--rows".to_owned(), args.rows.to_string());
     let mut checksums = Vec::new();
     for (option, file) in args.cell.files() {
@@ -287,7 +289,7 @@ fn recorded_options(args: &EdgesArgs, given: &ArgMatches, cell: &Cell) -> Result
     ))
 }
 
-/// Returns the checksum of the joints, and of the pieces of all bodies, whichever files they come from.
+/// Returns the checksum of the joints and of the pieces of all bodies. It does not depend on the names of files.
 fn checksum_of_bodies(cell: &Cell) -> Result<u32> {
     let at_rest = cell.robot().configuration_nearest_zero();
     let mut sum = crc32fast::Hasher::new();

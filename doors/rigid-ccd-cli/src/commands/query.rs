@@ -2,7 +2,6 @@
 
 mod args;
 mod help;
-mod limits;
 mod run;
 mod summary;
 
@@ -12,15 +11,14 @@ use args::UNRECORDED_OPTIONS;
 
 use crate::bodies::pair::Pair;
 use crate::commands::view::{ChosenRows, title, write_rows_page};
-use crate::console::RunOutcome;
-use crate::console::print_error;
 use crate::console::progress::Progress;
-use crate::files::output::{Output, is_standard_output};
-use crate::files::{Rows, input_name, open_movement_rows, refuse_overwriting_input};
+use crate::console::{RunOutcome, print_error};
+use crate::files::output::Output;
+use crate::files::{Rows, input_name, open_movement_rows, refuse_shared_files};
 use crate::options::solver_kind::{BoundKind, ScheduleKind, SolverKind};
 use crate::picture::{Painter, QueryContext, TimeMeaning};
 use crate::rows::bad_rows::BadRowCounter;
-use crate::rows::certificates::{PairCertificates, begin_or_resume};
+use crate::rows::certificates::PairCertificates;
 use crate::rows::resumable::{
     self, ClaimedFiles, FILE_CHECKSUM_PREFIX, OpenedTables, RunFiles, answer_in_batches,
     option_values, options_text,
@@ -40,14 +38,14 @@ use std::num::NonZeroUsize;
 use summary::Summary;
 
 /// Runs `ccd query`: answers all valid rows; an invalid row gets the status `error` and a reason.
-pub(crate) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
-    refuse_shared_files(args)?;
+pub(crate) fn run(args: &QueryArgs, matches: &ArgMatches) -> Result<RunOutcome> {
+    refuse_shared_query_files(args)?;
     refuse_options_unfit_for_each_other(args)?;
     let (mut rows, length) =
         open_movement_rows(&args.motions, Grouping::of_question(args.question))?;
     refuse_options_unfit_for_paths(args, &rows)?;
     let files = run_files(args);
-    let places = ClaimedFiles::claim(&files)?;
+    let claimed = ClaimedFiles::claim(&files)?;
     let html = args.html.as_deref().map(Output::claim).transpose()?;
     let pair = args.bodies.load(method(args), args.quiet)?;
     let certificates = args.certificates.as_deref();
@@ -58,12 +56,14 @@ pub(crate) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
         })
         .transpose()?;
     let (mut outputs, earlier) =
-        match OpenedTables::new(&files, places, &recorded_options(args, given, &pair))? {
+        match OpenedTables::new(&files, claimed, &recorded_options(args, matches, &pair))? {
             OpenedTables::Unfinished(outputs, earlier) => (*outputs, earlier),
             OpenedTables::Finished(end) => {
                 warn_of_partial_page(args);
                 resumable::check_finished(&files, &mut rows, end)?;
-                begin_or_resume(&certificates, Some(end))?;
+                if let Some(certificates) = &certificates {
+                    certificates.begin_or_resume(Some(end))?;
+                }
                 if !args.quiet {
                     let summary = Summary::new(args.tolerance).with_earlier_counts(end.counts);
                     print_summary(args, &summary);
@@ -71,7 +71,9 @@ pub(crate) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
                 return Ok(resumable::report_outcome(&files, end));
             }
         };
-    begin_or_resume(&certificates, earlier)?;
+    if let Some(certificates) = &certificates {
+        certificates.begin_or_resume(earlier)?;
+    }
     if args.resume {
         if earlier.is_some() {
             warn_of_partial_page(args);
@@ -105,7 +107,7 @@ pub(crate) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     run.outputs.finish(end)?;
     drop(run.progress);
     run.bad_rows.print_total();
-    let shown = write_page(args, &pair, run.html_rows.zip(html))?;
+    let page_outcome = write_page(args, &pair, run.html_rows.zip(html))?;
     if run.summary.counts.row_count() == 0 && earlier.is_none() {
         resumable::warn_of_no_rows(&files, start);
     }
@@ -113,7 +115,7 @@ pub(crate) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
         print_summary(args, &run.summary);
         pair.print_remarks(args.tolerance, &rows);
     }
-    Ok(resumable::report_outcome(&files, end).max(shown))
+    Ok(resumable::report_outcome(&files, end).max(page_outcome))
 }
 
 /// Returns the files of the run.
@@ -134,7 +136,7 @@ fn run_files(args: &QueryArgs) -> RunFiles<'_> {
 fn warn_of_partial_page(args: &QueryArgs) {
     if args.html.is_some() {
         print_error(
-            "--html: shows the rows that this run answers; `ccd view --results` shows those of earlier ones",
+            "--html: shows the rows that this run answers; `ccd view --results` shows the rows of earlier runs",
         );
     }
 }
@@ -145,16 +147,21 @@ fn write_page(
     pair: &Pair,
     page: Option<(ChosenRows, Output)>,
 ) -> Result<RunOutcome> {
-    let Some((chosen, html)) = page else {
+    let Some((chosen_rows, html)) = page else {
         return Ok(RunOutcome::AllAnswered);
     };
     let painter = Painter::new(pair.bodies(), page_context(args));
-    write_rows_page((&title(&args.bodies), painter), chosen, html, args.quiet)
+    write_rows_page(
+        (&title(&args.bodies), painter),
+        chosen_rows,
+        html,
+        args.quiet,
+    )
 }
 
 /// Returns what a page needs to describe the answers: the meaning of times, the margin and the clearance.
 fn page_context(args: &QueryArgs) -> QueryContext {
-    let claim = match (args.bound, args.question) {
+    let time_meaning = match (args.bound, args.question) {
         (Some(BoundKind::Published), _) => TimeMeaning::UncertifiedFirstContact,
         (_, Question::AnyContact) => TimeMeaning::SomeContact,
         (_, Question::Distance) => TimeMeaning::MeasurementTime,
@@ -164,32 +171,25 @@ fn page_context(args: &QueryArgs) -> QueryContext {
         }
     };
     QueryContext {
-        time_meaning: claim,
+        time_meaning,
         query_margin: args.margin,
         clearance: args.clearance,
     }
 }
 
 /// Refuses an output that is also an input or another output.
-fn refuse_shared_files(args: &QueryArgs) -> Result<()> {
+fn refuse_shared_query_files(args: &QueryArgs) -> Result<()> {
     let mut read = vec![("--motions", args.motions.clone())];
     read.extend(args.bodies.files_with_options()?);
-    let mut written = vec![("--out", &args.out)];
-    written.extend(args.html.iter().map(|path| ("--html", path)));
-    written.extend(args.contacts.iter().map(|path| ("--contacts", path)));
-    for (k, &(option, target)) in written.iter().enumerate() {
-        for (read, source) in &read {
-            refuse_overwriting_input((read, source), (option, target))?;
-        }
-        for &(other, path) in &written[..k] {
-            if is_standard_output(path) && is_standard_output(target) {
-                bail!("{option} - and {other} - are both standard output; give one of them a file");
-            }
-            refuse_overwriting_input((other, path), (option, target))?;
-            refuse_overwriting_input((option, target), (other, path))?;
-        }
-    }
-    Ok(())
+    let mut written = vec![("--out", args.out.as_path())];
+    written.extend(args.html.iter().map(|path| ("--html", path.as_path())));
+    written.extend(
+        args.contacts
+            .iter()
+            .map(|path| ("--contacts", path.as_path())),
+    );
+    let read = read.iter().map(|(option, path)| (*option, path.as_path()));
+    refuse_shared_files(read, &written)
 }
 
 /// Refuses `--bound` for a schedule that uses no bound on the motion, options that do not apply to the question of
@@ -264,11 +264,11 @@ fn ignores_start_contacts(args: &QueryArgs) -> bool {
 
 /// Returns the version, the options and the bodies' checksums that determine the tables of the run. The checksum of the
 /// motions is in each checkpoint.
-fn recorded_options(args: &QueryArgs, given: &ArgMatches, pair: &Pair) -> String {
+fn recorded_options(args: &QueryArgs, matches: &ArgMatches, pair: &Pair) -> String {
     let version = ("ccd".to_owned(), env!("CARGO_PKG_VERSION").to_owned());
     let checksums = (pair.checksums.iter())
         .map(|(option, checksum)| (format!("{FILE_CHECKSUM_PREFIX}{option}"), checksum.clone()));
-    let options = option_values::<QueryArgs>(given, &UNRECORDED_OPTIONS).into_iter();
+    let options = option_values::<QueryArgs>(matches, &UNRECORDED_OPTIONS).into_iter();
     let rows = ("--rows".to_owned(), args.rows.to_string());
     options_text(once(version).chain(options).chain([rows]).chain(checksums))
 }

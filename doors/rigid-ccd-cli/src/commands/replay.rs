@@ -1,8 +1,7 @@
 //! `ccd replay`: asks recorded questions again, and says whether the recorded answers hold.
 
-use crate::console::RunOutcome;
 use crate::console::causes::message_with_causes;
-use crate::console::print_error;
+use crate::console::{RunOutcome, print_error};
 use crate::files::input_name;
 use crate::files::output::print_line;
 use crate::robots::loading::CellArgs;
@@ -32,8 +31,8 @@ digests of all bodies of the cell; the robot and the cell that are given have to
 
 Verdicts:
   same answer   the answer is the same in every bit
-  holds         nothing touches before the point that the record calls free, also by a thousandth of its tolerance; the record
-                ended at a limit, or is of another machine or version
+  holds         nothing touches up to the point to which the record calls the path free, within a thousandth of the tolerance;
+                the answer differs because the record ended at a limit, or is of another machine or version
   refuted       something touches before that point
   undecided     a limit was reached
 
@@ -72,7 +71,7 @@ fn read_and_replay(cell: &Cell, path: &Path) -> Result<(Evidence, Replay)> {
     Ok((record, replay))
 }
 
-/// Says what was recorded, and what the replay has found.
+/// Describes the recorded answer, and the verdict of the replay.
 fn describe(record: &Evidence, replay: &Replay) -> String {
     let verdict = match replay.verdict {
         Verdict::SameAnswer => "same answer".to_owned(),

@@ -1,9 +1,8 @@
 //! `ccd scene`: lists which bodies of a scene touch, in order of time.
 
 use crate::bodies::meshes::MeshArgs;
-use crate::bodies::scene_table::{self, SceneArgs};
-use crate::console::RunOutcome;
-use crate::console::print_error;
+use crate::bodies::scene_table;
+use crate::console::{RunOutcome, print_error};
 use crate::files::output::Output;
 use crate::files::table::TableWriter;
 use crate::options::numbers::{parse_nonnegative, tolerance};
@@ -21,7 +20,8 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(crate) struct SceneCommandArgs {
-    /// Table of the bodies, CSV or Parquet, - reads CSV from standard input: column `body` as in `ccd query --a`, columns px, vx, ... as in a table of motions
+    /// Table of the bodies, CSV or Parquet; - reads CSV from standard input. Column `body` is as in `ccd query --a`,
+    /// columns px, vx, ... as in a table of motions
     #[arg(value_name = "TABLE")]
     scene: PathBuf,
     #[command(flatten)]
@@ -72,11 +72,11 @@ const OMITTED_COLUMNS: &[&str] = &["id", "iterations", "oracle_calls", "micros"]
 
 /// Runs `ccd scene`: finds the contacts of the bodies in a scene, and writes the table of contacts.
 pub(crate) fn run(args: &SceneCommandArgs) -> Result<RunOutcome> {
-    let how = SceneArgs {
-        meshes: &args.meshes,
-        duration: args.duration,
-    };
-    let table = scene_table::read(("the scene", &args.scene), how, &args.out)?;
+    let table = scene_table::read(
+        ("the scene", &args.scene),
+        (&args.meshes, args.duration),
+        &args.out,
+    )?;
     if !args.quiet {
         table.print_load_report(args.tolerance);
     }

@@ -8,28 +8,26 @@ pub(crate) use chosen::ChosenRows;
 
 use crate::bodies::pair::BodiesArgs;
 use crate::bodies::scene_table;
-use crate::console::RunOutcome;
-use crate::console::print_error;
-use crate::console::print_remarks;
+use crate::console::{RunOutcome, print_error, print_remarks};
 use crate::files::html::write_page;
 use crate::files::output::Output;
-use crate::files::{input_name, open_movement_rows, refuse_overwriting_input};
+use crate::files::{input_name, open_movement_rows, refuse_shared_files};
 use crate::options::solver_kind::SolverKind;
 use crate::picture::{Painter, QueryContext, TimeMeaning, scene_view};
-use crate::robots::{CellArgs, FoundPaths, RobotPainter, RobotPaths};
+use crate::robots::{CellArgs, RobotPainter, RobotPaths, SelectedPaths};
 use crate::rows::timed::{TimedQuestion, answer_timed};
 use anyhow::{Context, Result, bail};
 use ccd_core::Settings;
 use ccd_tables::paths::Grouping;
 use ccd_tables::results::{self, ResultRow};
-use ccd_view::{AnimationGroup, Page};
+use ccd_view::page_html;
 use rigid_ccd::Question;
 use std::collections::{HashMap, VecDeque};
 use std::ffi::OsStr;
 use std::num::NonZeroUsize;
 use std::path::Path;
 
-/// The maximum number of paths of a robot that cannot be shown and are printed one by one.
+/// The maximum number of printed messages about paths of a robot that cannot be shown.
 const MAX_PRINTED_PROBLEMS: usize = 5;
 
 /// The maximum number of rows that are read to choose a few of them for the page.
@@ -52,22 +50,21 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
     let mut read = bodies.files_with_options()?;
     read.push(("--motions", motions.to_owned()));
     read.extend(args.results.iter().map(|path| ("--results", path.clone())));
-    for (option, path) in &read {
-        refuse_overwriting_input((option, path), ("--out", &args.out))?;
-    }
+    let read = read.iter().map(|(option, path)| (*option, path.as_path()));
+    refuse_shared_files(read, &[("--out", &args.out)])?;
     let (mut rows, _) = open_movement_rows(motions, Grouping::of_question(Question::FirstContact))?;
     let out = Output::claim(&args.out)?;
     let pair = bodies.load(SolverKind::default(), args.quiet)?;
-    let mut known = args.results.as_deref().map(read_results).transpose()?;
-    let mut chosen = ChosenRows::new(args.ids.clone());
+    let mut results_by_id = args.results.as_deref().map(read_results).transpose()?;
+    let mut chosen_rows = ChosenRows::new(args.ids.clone());
     let timing = TimedQuestion {
         question: Question::FirstContact,
         method: SolverKind::default(),
         settings: settings(args),
         repetitions: NonZeroUsize::MIN,
     };
-    let asked = QueryContext {
-        time_meaning: known
+    let query_context = QueryContext {
+        time_meaning: results_by_id
             .as_ref()
             .map_or(TimeMeaning::FirstContact, |_| TimeMeaning::TableTime),
         query_margin: args.margin,
@@ -75,43 +72,45 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
     };
     let mut solver = timing.method.solver();
     for row in rows.by_ref().take(MAX_ROWS_READ) {
-        let course = match row.with_context(|| input_name(motions))? {
-            Ok((_, course)) => course,
-            Err(fault) => {
-                chosen.note_undrawable_row(fault.to_string());
+        let movements = match row.with_context(|| input_name(motions))? {
+            Ok((_, movements)) => movements,
+            Err(error) => {
+                chosen_rows.note_undrawable_row(error.to_string());
                 continue;
             }
         };
-        if chosen.is_requested(course.id()) == Some(false) {
+        if chosen_rows.is_requested(movements.id()) == Some(false) {
             continue;
         }
-        let row = match &mut known {
-            Some(known) => known.get_mut(course.id()).and_then(VecDeque::pop_front),
+        let row = match &mut results_by_id {
+            Some(results_by_id) => results_by_id
+                .get_mut(movements.id())
+                .and_then(VecDeque::pop_front),
             None => {
-                let answer = answer_timed(pair.bodies(), &course, &timing, solver.as_mut());
+                let answer = answer_timed(pair.bodies(), &movements, &timing, solver.as_mut());
                 let (question, settings) = (timing.question, &timing.settings);
                 Some(
                     pair.bodies()
-                        .result_row(question, settings, &course, &answer),
+                        .result_row(question, settings, &movements, &answer),
                 )
             }
         };
         if let Some(row) = row {
-            chosen.add_if_wanted(&course, &row);
+            chosen_rows.add_if_wanted(&movements, &row);
         }
-        if chosen.needs_no_more_rows() {
+        if chosen_rows.needs_no_more_rows() {
             break;
         }
     }
     if args.results.is_none() && !args.quiet {
         pair.print_remarks(args.tolerance(), &rows);
     }
-    if let (Some(results), true) = (&args.results, chosen.is_empty()) {
+    if let (Some(results), true) = (&args.results, chosen_rows.is_empty()) {
         let (motions, results) = (input_name(motions), results.display());
         bail!("no row of {motions} is in {results}");
     }
-    let painter = Painter::new(pair.bodies(), asked);
-    write_rows_page((&title(bodies), painter), chosen, out, args.quiet)
+    let painter = Painter::new(pair.bodies(), query_context);
+    write_rows_page((&title(bodies), painter), chosen_rows, out, args.quiet)
 }
 
 /// Returns the title of a page about two bodies: their names without folders, and the unit.
@@ -128,30 +127,31 @@ pub(crate) fn title(bodies: &BodiesArgs) -> String {
 /// Writes the page of the chosen rows under a title. If no row can be shown, writes no page and prints a message.
 pub(crate) fn write_rows_page(
     (title, mut painter): (&str, Painter<'_>),
-    mut chosen: ChosenRows,
+    mut chosen_rows: ChosenRows,
     out: Output,
     quiet: bool,
 ) -> Result<RunOutcome> {
-    let all_found = chosen.ids_without_row().next().is_none();
-    for id in chosen.ids_without_row() {
+    let has_all_ids = chosen_rows.ids_without_row().next().is_none();
+    for id in chosen_rows.ids_without_row() {
         print_error(&format!("no row has the id {id:?}"));
     }
     let mut views = Vec::new();
-    for (course, row) in chosen.take_rows() {
-        match painter.animate_row(&course, &row) {
+    for (movements, row) in chosen_rows.take_rows() {
+        match painter.animate_row(&movements, &row) {
             Ok(view) => views.push(view),
-            Err(error) => chosen.note_undrawable_row(format!("row {}: {error}", row.id)),
+            Err(error) => chosen_rows.note_undrawable_row(format!("row {}: {error}", row.id)),
         }
     }
-    if let Some(faults) = chosen.describe_faults() {
-        print_error(&faults);
+    if let Some(message) = chosen_rows.describe_faults() {
+        print_error(&message);
     }
     if views.is_empty() {
-        print_error("there is no row to show, and no page");
+        print_error("there is no row to show, so no page is written");
         return Ok(RunOutcome::SomeRowsBad);
     }
-    write_page(&painter.page(title, views), out, quiet)?;
-    Ok(if all_found && chosen.are_all_rows_drawable() {
+    let html = page_html(title, painter.meshes(), views)?;
+    write_page(&html, out, quiet)?;
+    Ok(if has_all_ids && chosen_rows.are_all_rows_drawable() {
         RunOutcome::AllAnswered
     } else {
         RunOutcome::SomeRowsBad
@@ -163,11 +163,14 @@ fn read_results(path: &Path) -> Result<HashMap<String, VecDeque<ResultRow>>> {
     let name = || path.display().to_string();
     let file = ccd_file::open(path).with_context(name)?;
     let rows = results::read(file).with_context(name)?;
-    let mut known: HashMap<String, VecDeque<ResultRow>> = HashMap::new();
+    let mut results_by_id: HashMap<String, VecDeque<ResultRow>> = HashMap::new();
     for row in rows {
-        known.entry(row.id.clone()).or_default().push_back(row);
+        results_by_id
+            .entry(row.id.clone())
+            .or_default()
+            .push_back(row);
     }
-    Ok(known)
+    Ok(results_by_id)
 }
 
 fn settings(args: &ViewArgs) -> Settings {
@@ -179,20 +182,18 @@ fn settings(args: &ViewArgs) -> Settings {
 }
 
 fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
-    if !args.meshes_are_default() {
+    if !args.meshes.are_default() {
         bail!(
             "the options of mesh files are for --a, --b and --scene; --geometry and --meshes say what a robot's links are"
         );
     }
-    robot.refuse_overwriting(&[("--out", &args.out)])?;
-    let asked = RobotPaths {
+    let robot_paths = RobotPaths {
         table: args.path.as_deref(),
-        joints: args.joints.given(),
+        joints: &args.joints,
         ids: &args.ids,
     };
-    if let Some(path) = asked.table {
-        refuse_overwriting_input(("--path", path), ("--out", &args.out))?;
-    }
+    let table = robot_paths.table.map(|path| ("--path", path));
+    refuse_shared_files(robot.files().chain(table), &[("--out", &args.out)])?;
     let out = Output::claim(&args.out)?;
     let cell = robot.load(args.quiet)?;
     if !args.quiet {
@@ -203,10 +204,10 @@ fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
         ..settings(args)
     });
     let painter = RobotPainter::new(&cell)?;
-    let FoundPaths {
+    let SelectedPaths {
         paths,
         mut problems,
-    } = asked.read(&cell)?;
+    } = robot_paths.read(&cell)?;
     let mut views = Vec::new();
     for path in &paths {
         match painter.animation(&mut solver, path, args.clearance) {
@@ -221,14 +222,15 @@ fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
         print_error(&format!("{} paths are not shown in all", problems.len()));
     }
     if views.is_empty() {
-        print_error("there is no row to show, and no page");
+        print_error("there is no row to show, so no page is written");
         return Ok(RunOutcome::SomeRowsBad);
     }
     if let ([view], false) = (&views[..], args.quiet) {
         print_error(&view.verdict);
     }
     let title = input_name(robot.robot.path());
-    write_page(&painter.page(&title, views), out, args.quiet)?;
+    let html = page_html(&title, painter.meshes(), views)?;
+    write_page(&html, out, args.quiet)?;
     Ok(if problems.is_empty() {
         RunOutcome::AllAnswered
     } else {
@@ -237,26 +239,19 @@ fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
 }
 
 fn view_scene(args: &ViewArgs, path: &Path) -> Result<RunOutcome> {
-    let table = scene_table::read(("--scene", path), args.scene_args(), &args.out)?;
+    let table = scene_table::read(("--scene", path), (&args.meshes, args.duration), &args.out)?;
     if !args.quiet {
         table.print_load_report(args.tolerance());
     }
     let out = Output::claim(&args.out)?;
-    let shown = table.bodies_to_draw();
+    let bodies = table.bodies_to_draw();
     let contacts = table.contacts(settings(args));
     let title = input_name(path);
-    let (meshes, view) = scene_view(&title, &shown, &contacts, table.duration);
+    let (meshes, view) = scene_view(&title, &bodies, &contacts, table.duration);
     if !args.quiet {
         print_error(&view.verdict);
     }
-    let page = Page {
-        title: &title,
-        meshes,
-        groups: vec![AnimationGroup {
-            name: String::new(),
-            views: vec![view],
-        }],
-    };
-    write_page(&page, out, args.quiet)?;
+    let html = page_html(&title, &meshes, vec![view])?;
+    write_page(&html, out, args.quiet)?;
     Ok(RunOutcome::AllAnswered)
 }

@@ -20,7 +20,7 @@ pub(crate) fn message_with_causes(error: &anyhow::Error) -> String {
 /// The text before the error number of the operating system.
 const ERROR_NUMBER_PREFIX: &str = " (os error ";
 
-/// Removes the operating system's error numbers from a text that already has their messages in words.
+/// Removes the operating system's error numbers from a text that already has their messages.
 fn without_error_numbers(text: &str) -> String {
     let mut parts = text.split(ERROR_NUMBER_PREFIX);
     let mut out = parts.next().unwrap_or_default().to_owned();

@@ -60,9 +60,10 @@ impl Progress {
         }
         let (bar, steps) = (progress.bar.clone(), Arc::clone(&progress.steps));
         bar.set_style(progress_style(total, Arc::clone(&steps)));
-        let (working, done) = mpsc::channel();
+        let (done_sender, done_receiver) = mpsc::channel();
         let show = move || {
-            let still_working = |time| done.recv_timeout(time) == Err(RecvTimeoutError::Timeout);
+            let still_working =
+                |time| done_receiver.recv_timeout(time) == Err(RecvTimeoutError::Timeout);
             if !still_working(SHOW_DELAY) {
                 return;
             }
@@ -77,7 +78,7 @@ impl Progress {
         };
         // Without a thread nothing is shown, but the work is done.
         progress.display_thread = thread::Builder::new().spawn(show).ok();
-        progress.done_sender = Some(working);
+        progress.done_sender = Some(done_sender);
         progress
     }
 
@@ -148,9 +149,9 @@ impl Progress {
 impl Drop for Progress {
     fn drop(&mut self) {
         drop(self.done_sender.take());
-        if let Some(showing) = self.display_thread.take() {
+        if let Some(thread) = self.display_thread.take() {
             // The thread has no result and does not panic.
-            let _ = showing.join();
+            let _ = thread.join();
         }
         self.bar.finish_and_clear();
     }

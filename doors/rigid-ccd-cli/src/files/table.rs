@@ -8,8 +8,8 @@ use std::path::Path;
 
 /// A CSV table that is written row by row.
 ///
-/// A file gets its final name once it is complete. Until then its rows are in a file next to it, whose
-/// name ends in `.partial`, and which stays if the run is interrupted. A stream is written directly.
+/// A file gets its final name once it is complete. Until then its rows are in a file next to it, whose name
+/// ends in `.partial`. This file stays if the run is interrupted. A stream is written directly.
 pub struct TableWriter {
     output: Output,
     writer: csv::Writer<MeasuringWriter>,
@@ -37,19 +37,19 @@ impl TableWriter {
 
     /// Starts a table in a reserved output, and discards what an earlier run left there.
     pub(crate) fn start(mut output: Output, header: &[&str]) -> Result<Self, OutputError> {
-        let emptied = output
+        let truncated = output
             .reserved_file
             .as_mut()
             .map_or(Ok(()), |claim| claim.truncate(0));
-        let opened = emptied.and_then(|()| output.open());
-        let to = opened.map_err(|source| output.error(source))?;
-        let mut table = TableWriter::new(output, MeasuringWriter::new(to));
+        let opened = truncated.and_then(|()| output.open());
+        let destination = opened.map_err(|source| output.error(source))?;
+        let mut table = TableWriter::new(output, MeasuringWriter::new(destination));
         table.write_row(|writer| writer.write_record(header))?;
         Ok(table)
     }
 
-    /// Continues a table after the part that was `written`, and truncates what follows. Returns `None` if that part has
-    /// changed since, or the output is a stream.
+    /// Continues a table after its first part, which has the length and checksum `written`, and removes the rest.
+    /// Returns `None` if that part has changed since, or the output is a stream.
     pub(crate) fn resume(
         mut output: Output,
         written: LengthAndChecksum,
@@ -59,15 +59,15 @@ impl TableWriter {
                 return Ok(None);
             };
             claim.file().rewind()?;
-            let found = measure_beginning(claim.file(), written.bytes)?;
-            if found.length_and_checksum() != written {
+            let measured = measure_beginning(claim.file(), written.bytes)?;
+            if measured.length_and_checksum() != written {
                 return Ok(None);
             }
             claim.truncate(written.bytes)?;
-            let to = output.open()?;
+            let destination = output.open()?;
             Ok(Some(MeasuringWriter {
-                destination: to,
-                ..found
+                destination,
+                ..measured
             }))
         };
         let opened = open().map_err(|source| output.error(source))?;
@@ -86,9 +86,9 @@ impl TableWriter {
     /// Adds a row, which the function `row` writes.
     pub fn write_row(
         &mut self,
-        row: impl FnOnce(&mut csv::Writer<MeasuringWriter>) -> Result<(), csv::Error>,
+        write: impl FnOnce(&mut csv::Writer<MeasuringWriter>) -> Result<(), csv::Error>,
     ) -> Result<(), OutputError> {
-        row(&mut self.writer).map_err(|error| self.output.error(io_error_from_csv(error)))
+        write(&mut self.writer).map_err(|error| self.output.error(io_error_from_csv(error)))
     }
 
     /// Adds a row, given as serialisable cells.
@@ -114,19 +114,19 @@ impl TableWriter {
     /// Renames the complete table to its final name.
     pub fn finish(mut self) -> Result<(), OutputError> {
         self.flush()?;
-        let placed = self
+        let renamed = self
             .output
             .reserved_file
             .take()
             .map_or(Ok(()), Claim::rename_to_target);
-        placed.map_err(|source| self.output.error(source))
+        renamed.map_err(|source| self.output.error(source))
     }
 }
 
 impl MeasuringWriter {
-    fn new(to: Box<dyn Write>) -> Self {
+    fn new(destination: Box<dyn Write>) -> Self {
         MeasuringWriter {
-            destination: to,
+            destination,
             bytes: 0,
             checksum: crc32fast::Hasher::new(),
         }

@@ -5,9 +5,7 @@ use ccd_core::{Answer, Body, DistanceOracle, InputError, OrElse, Query, Schedule
 use ccd_distance_gjk::{Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use clap::ValueEnum;
-use rigid_ccd::CachePadded;
-use rigid_ccd::Question;
-use rigid_ccd::Solver;
+use rigid_ccd::{CachePadded, Question, Solver};
 use std::fmt;
 
 /// The schedule, the distance backend and the motion bound that a solver is made with.
@@ -89,19 +87,6 @@ pub trait Solve: Send {
 }
 
 impl SolverKind {
-    /// Returns all combinations of a schedule and a distance backend, each with the sound bound.
-    pub fn all_sound() -> impl Iterator<Item = SolverKind> {
-        ScheduleKind::value_variants().iter().flat_map(|&schedule| {
-            OracleKind::value_variants()
-                .iter()
-                .map(move |&oracle| SolverKind {
-                    schedule,
-                    oracle,
-                    motion_bound: BoundKind::Sound,
-                })
-        })
-    }
-
     /// Creates a solver of this kind.
     pub fn solver(self) -> Box<dyn Solve> {
         match self.oracle {
@@ -153,7 +138,7 @@ where
     }
 }
 
-/// A schedule with its oracle answers only when the first contact is.
+/// A schedule with its oracle answers only the question about the first contact.
 impl<S, O> Solve for CachePadded<(S, O)>
 where
     S: Schedule<O> + Send,

@@ -13,20 +13,20 @@ const SPHERE_POINT_COUNT: u32 = 320;
 
 /// Returns the triangles of a body's surface: the faces of its mesh, or the hulls of its pieces.
 pub fn drawn_mesh(body: &Body) -> DrawnMesh {
-    let mut sketch = MeshBuilder::default();
+    let mut builder = MeshBuilder::default();
     for piece in body.pieces().iter() {
-        let mut bare = true;
+        let mut has_no_triangles = true;
         if piece.radius == 0.0 {
             for (_, corners) in piece.mesh_triangles() {
-                sketch.push(corners);
-                bare = false;
+                builder.push(corners);
+                has_no_triangles = false;
             }
         }
-        if bare && piece.facets.is_empty() {
-            sketch.push_hull(&piece);
+        if has_no_triangles && piece.facets.is_empty() {
+            builder.push_hull(&piece);
         }
     }
-    sketch.mesh
+    builder.mesh
 }
 
 /// Returns the corners of a feature to highlight, in the world: one for a vertex, two for an edge, three for each
@@ -37,18 +37,19 @@ pub(super) fn feature_corners(
     feature: &str,
     witness: DVec3,
 ) -> Vec<DVec3> {
-    let here = pose.inverse().transform_point(witness);
+    let local_witness = pose.inverse().transform_point(witness);
     let triangles = || {
         body.pieces()
             .iter()
             .flat_map(|piece| piece.mesh_triangles().collect::<Vec<_>>())
     };
-    let found = match feature.split_at_checked(1) {
-        Some(("v", _)) => vec![here],
+    let corners = match feature.split_at_checked(1) {
+        Some(("v", _)) => vec![local_witness],
         Some(("e", _)) => {
             let edges = triangles().flat_map(|(_, [a, b, c])| [[a, b], [b, c], [c, a]]);
             let nearest = edges.min_by(|one, two| {
-                distance_to_segment(here, *one).total_cmp(&distance_to_segment(here, *two))
+                distance_to_segment(local_witness, *one)
+                    .total_cmp(&distance_to_segment(local_witness, *two))
             });
             nearest.map_or_else(Vec::new, |edge| edge.to_vec())
         }
@@ -58,16 +59,17 @@ pub(super) fn feature_corners(
             .collect(),
         _ => Vec::new(),
     };
-    found
+    corners
         .iter()
         .map(|point| pose.transform_point(*point))
         .collect()
 }
 
 fn distance_to_segment(point: DVec3, [from, to]: [DVec3; 2]) -> f64 {
-    let along = to - from;
-    let fraction = (point - from).dot(along) / greater(along.length_squared(), f64::MIN_POSITIVE);
-    point.distance(from + fraction.clamp(0.0, 1.0) * along)
+    let direction = to - from;
+    let fraction =
+        (point - from).dot(direction) / greater(direction.length_squared(), f64::MIN_POSITIVE);
+    point.distance(from + fraction.clamp(0.0, 1.0) * direction)
 }
 
 /// A mesh under construction, with duplicate vertices and faces merged.
@@ -98,22 +100,22 @@ impl MeshBuilder {
         })
     }
 
-    /// Adds the hull of a piece's points, grown by the piece's radius. A flat one without a radius is not drawn.
+    /// Adds the hull of a piece's points, grown by the piece's radius. A flat hull without a radius is not drawn.
     fn push_hull(&mut self, piece: &Piece<'_>) {
-        let around: Vec<DVec3> = if piece.radius > 0.0 {
+        let sphere_points: Vec<DVec3> = if piece.radius > 0.0 {
             sphere_directions()
                 .map(|direction| piece.radius * direction)
                 .collect()
         } else {
             vec![DVec3::ZERO]
         };
-        let grown = piece
+        let points = piece
             .points
             .iter()
-            .flat_map(|point| around.iter().map(move |by| *point + *by));
-        let points: Vec<_> = grown.collect();
-        let parrys: Vec<_> = points.iter().map(|p| (*p).to_array().into()).collect();
-        let Ok((corners, faces)) = try_convex_hull(&parrys) else {
+            .flat_map(|point| sphere_points.iter().map(move |by| *point + *by));
+        let points: Vec<_> = points.collect();
+        let parry_points: Vec<_> = points.iter().map(|p| (*p).to_array().into()).collect();
+        let Ok((corners, faces)) = try_convex_hull(&parry_points) else {
             return;
         };
         // parry finds no hull of denormal points, which are too small to draw.
@@ -128,10 +130,10 @@ impl MeshBuilder {
 
 /// Returns evenly distributed unit vectors on a spiral from pole to pole.
 fn sphere_directions() -> impl Iterator<Item = DVec3> {
-    let golden = PI * (3.0 - 5f64.sqrt());
+    let golden_angle = PI * (3.0 - 5f64.sqrt());
     (0..SPHERE_POINT_COUNT).map(move |k| {
         let z = 1.0 - (2.0 * f64::from(k) + 1.0) / f64::from(SPHERE_POINT_COUNT);
-        let (sine, cosine) = (golden * f64::from(k)).sin_cos();
+        let (sine, cosine) = (golden_angle * f64::from(k)).sin_cos();
         let radius = (1.0 - z * z).sqrt();
         DVec3::new(radius * cosine, radius * sine, z)
     })

@@ -3,7 +3,7 @@
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Body, InputError, Settings, Stretch};
 use ccd_tables::batch::BodyPair;
-use ccd_tables::courses::Movements;
+use ccd_tables::movements::Movements;
 use ccd_view::{GapCurve, GapSample};
 use rigid_ccd::Solver;
 use std::time::{Duration, Instant};
@@ -37,7 +37,7 @@ impl GapOverTime {
         gaps.reduce(lesser)
     }
 
-    /// Returns the times at which the bodies are also drawn as translucent ghosts: steps more than a twelfth of
+    /// Returns the times at which the bodies are also drawn as translucent ghosts: those steps that are more than a twelfth of
     /// `duration` apart.
     pub fn ghost_times(&self, duration: f64) -> Vec<f64> {
         let mut drawn: Vec<f64> = Vec::new();
@@ -55,39 +55,39 @@ impl GapOverTime {
     /// Returns the time at which the measured distance is least.
     pub fn least_distance_time(&self) -> f64 {
         let points = self.gap.points.iter();
-        let nearest = points.min_by(|one, two| one.upper.total_cmp(&two.upper));
+        let nearest = points.min_by(|one, other| one.upper.total_cmp(&other.upper));
         nearest.map_or(0.0, |point| point.time)
     }
 }
 
 /// Samples the distance of two bodies over time, most densely where its proven lower bound is loose. Between two
-/// samples the lower bound follows from a bound on the bodies' closing speed. It is nowhere less than `floor`, which
-/// the answer proves for all times.
+/// samples the lower bound follows from a bound on the bodies' closing speed. The lower bound is nowhere less than
+/// `floor`, which the answer proves for all times.
 ///
 /// # Errors
 /// If the motions are out of range.
 pub fn measure_gap_over_time(
     solver: &mut Solver,
     bodies: BodyPair<'_>,
-    course: &Movements,
+    movements: &Movements,
     floor: f64,
 ) -> Result<GapOverTime, InputError> {
     solver.set_settings(Settings {
         budget: MEASUREMENT_BUDGET,
         ..Settings::DEFAULT
     });
-    let mut survey = GapSampler {
+    let mut sampler = GapSampler {
         solver,
         bodies,
-        movements: course,
+        movements,
         distance_lower_bound: greater(floor, 0.0),
         deadline: Instant::now() + TIME_LIMIT,
     };
-    let (mut points, steps) = survey.advance()?;
-    survey.add_measurements(&mut points)?;
+    let (mut points, steps) = sampler.advance()?;
+    sampler.add_measurements(&mut points)?;
     Ok(GapOverTime {
         gap: GapCurve {
-            proven: survey.lower_bound_curve(&points)?,
+            proven: sampler.lower_bound_curve(&points)?,
             points,
             ..GapCurve::default()
         },
@@ -137,20 +137,23 @@ impl GapSampler<'_> {
 
     /// Measures the distance at more times, each in the middle of the interval with the largest gain.
     fn add_measurements(&mut self, points: &mut Vec<GapSample>) -> Result<(), InputError> {
-        let mut worths = Vec::new();
+        let mut gains = Vec::new();
         for k in 1..points.len() {
-            worths.push(self.gain_of_measurement_between(points[k - 1], points[k])?);
+            gains.push(self.gain_of_measurement_between(points[k - 1], points[k])?);
         }
         while points.len() < MAX_MEASUREMENTS && Instant::now() < self.deadline {
-            let worst = (0..worths.len()).max_by(|i, k| worths[*i].total_cmp(&worths[*k]));
-            let Some(worst) = worst.filter(|worst| worths[*worst] > 0.0) else {
+            let best = (0..gains.len()).max_by(|i, k| gains[*i].total_cmp(&gains[*k]));
+            let Some(interval) = best.filter(|interval| gains[*interval] > 0.0) else {
                 return Ok(());
             };
-            let (before, after) = (points[worst], points[worst + 1]);
+            let (before, after) = (points[interval], points[interval + 1]);
             let middle = self.measure(0.5 * before.time + 0.5 * after.time)?;
-            worths[worst] = self.gain_of_measurement_between(before, middle)?;
-            worths.insert(worst + 1, self.gain_of_measurement_between(middle, after)?);
-            points.insert(worst + 1, middle);
+            gains[interval] = self.gain_of_measurement_between(before, middle)?;
+            gains.insert(
+                interval + 1,
+                self.gain_of_measurement_between(middle, after)?,
+            );
+            points.insert(interval + 1, middle);
         }
         Ok(())
     }
@@ -168,9 +171,9 @@ impl GapSampler<'_> {
         }
         let ApproachBounds { speed, deviation } =
             self.closing_speed_bounds(before.time, after.time)?;
-        let least = 0.5 * (before.lower + after.lower - speed * time) - deviation;
-        let most = greater(before.upper, after.upper);
-        Ok(time * (most - greater(least, 0.0) + 1e-3 * most))
+        let lower = 0.5 * (before.lower + after.lower - speed * time) - deviation;
+        let largest_distance = greater(before.upper, after.upper);
+        Ok(time * (largest_distance - greater(lower, 0.0) + 1e-3 * largest_distance))
     }
 
     fn measure(&mut self, time: f64) -> Result<GapSample, InputError> {
@@ -189,12 +192,12 @@ impl GapSampler<'_> {
         let (a, b) = (a.stretch_between(from, to)?, b.stretch_between(from, to)?);
         let [reach_a, reach_b] =
             [(&a, self.bodies.a), (&b, self.bodies.b)].map(max_distance_from_rotation_center);
-        let shift = (a.motion.velocity() - b.motion.velocity()).length();
-        let turns = a.motion.angular_velocity().length() * reach_a
+        let relative_speed = (a.motion.velocity() - b.motion.velocity()).length();
+        let rotation_speed = a.motion.angular_velocity().length() * reach_a
             + b.motion.angular_velocity().length() * reach_b;
-        let gains = (a.acceleration.length() + b.acceleration.length()) * (to - from);
+        let speed_gain = (a.acceleration.length() + b.acceleration.length()) * (to - from);
         Ok(ApproachBounds {
-            speed: (shift + turns + gains) * ROUNDING_FACTOR,
+            speed: (relative_speed + rotation_speed + speed_gain) * ROUNDING_FACTOR,
             deviation: 2.0
                 * (a.deviation_bound.at_reach(reach_a) + b.deviation_bound.at_reach(reach_b))
                 * ROUNDING_FACTOR,
@@ -202,28 +205,28 @@ impl GapSampler<'_> {
     }
 
     /// Returns the proven lower bound of the distance as a polyline over time. It falls on both sides of each
-    /// measurement, but not below what is proven for all times.
+    /// measurement, but not below the bound that is proven for all times.
     fn lower_bound_curve(&self, points: &[GapSample]) -> Result<Vec<[f64; 2]>, InputError> {
         let floor = self.distance_lower_bound;
         let mut line = Vec::new();
-        for two in points.windows(2) {
-            let [one, two] = [two[0], two[1]];
+        for pair in points.windows(2) {
+            let [previous, next] = [pair[0], pair[1]];
             let ApproachBounds { speed, deviation } =
-                self.closing_speed_bounds(one.time, two.time)?;
-            let height = |point: GapSample| greater(point.lower - deviation, floor);
-            let (left, right) = (height(one), height(two));
-            line.push([one.time, left]);
-            // Add the point at which both lines meet, or those at which they meet the floor.
-            let time = two.time - one.time;
+                self.closing_speed_bounds(previous.time, next.time)?;
+            let bound_at = |point: GapSample| greater(point.lower - deviation, floor);
+            let (left, right) = (bound_at(previous), bound_at(next));
+            line.push([previous.time, left]);
+            // Add the point where both lines meet, or the points where they meet the floor.
+            let time = next.time - previous.time;
             let lowest = 0.5 * (left + right - speed * time);
             if speed > 0.0 && lowest > floor {
-                let meets = 0.5 * (time + (left - right) / speed);
-                line.push([one.time + meets.clamp(0.0, time), lowest]);
+                let meeting_time = 0.5 * (time + (left - right) / speed);
+                line.push([previous.time + meeting_time.clamp(0.0, time), lowest]);
             } else if speed > 0.0 {
                 let ends = [(left - floor) / speed, time - (right - floor) / speed];
-                line.extend(ends.map(|end| [one.time + end.clamp(0.0, time), floor]));
+                line.extend(ends.map(|end| [previous.time + end.clamp(0.0, time), floor]));
             }
-            line.push([two.time, right]);
+            line.push([next.time, right]);
         }
         if let ([], [only]) = (line.as_slice(), points) {
             line.push([only.time, only.lower]);

@@ -1,7 +1,6 @@
 use super::*;
-use ccd_core::Outcome;
 use ccd_core::glam::DQuat;
-use ccd_core::{Motion, Settings};
+use ccd_core::{Motion, Outcome, Settings};
 use ccd_tables::motions::Motions;
 use ccd_tables::paths::PathPair;
 use rand::{Rng, RngExt, SeedableRng};

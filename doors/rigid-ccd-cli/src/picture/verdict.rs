@@ -18,7 +18,8 @@ pub struct QueryContext {
 pub enum TimeMeaning {
     /// The certified time of the first contact or, for a closest approach, of the least distance.
     FirstContact,
-    /// The time of the [first](TimeMeaning::FirstContact) contact, where a contact at the start is ignored until the bodies part.
+    /// The time of the [first](TimeMeaning::FirstContact) contact, where a contact at the start is ignored until the
+    /// bodies part.
     FirstContactAfterParting,
     /// The time of some contact, perhaps not the first one.
     SomeContact,
@@ -30,35 +31,35 @@ pub enum TimeMeaning {
     TableTime,
 }
 
-/// Describes the answer of a row in words. The motions end at `end`, and `proven` is a lower bound of the distance at
-/// all times.
+/// Describes the answer of a row in words. The motions end at `end`, and `least_proven_gap` is a lower bound of the
+/// distance at all times.
 pub(super) fn verdict(
     row: &ResultRow,
-    asked: QueryContext,
+    context: QueryContext,
     end: f64,
-    proven: Option<f64>,
+    least_proven_gap: Option<f64>,
 ) -> String {
     let time = row
         .time
         .map_or("an unknown time".to_owned(), format_rounded_down);
     let reason = row.reason.as_deref().unwrap_or("no reason given");
-    let clearance = match asked.clearance {
+    let clearance = match context.clearance {
         Some(length) => format!("The clearance of {}", format_rounded_down(length)),
         None => "The clearance".to_owned(),
     };
     match row.status {
-        Status::Contact => describe_contact_after_start(row, asked, &time),
-        Status::Free => describe_free_bodies(asked, end, proven),
+        Status::Contact => describe_contact_after_start(row, context, &time),
+        Status::Free => describe_free_bodies(context, end, least_proven_gap),
         Status::Touching | Status::Overlapping => {
-            let how = match row.status {
+            let kind = match row.status {
                 Status::Overlapping => "Overlapping",
-                _ if asked.query_margin > 0.0 => "Within the margin",
+                _ if context.query_margin > 0.0 => "Within the margin",
                 _ => "In contact",
             };
             let (contact, after) = (describe_contact(row), describe_end_of_start_contact(row));
-            format!("{how} at the start: {contact}.{after}")
+            format!("{kind} at the start: {contact}.{after}")
         }
-        Status::Measured if asked.time_meaning == TimeMeaning::MeasurementTime => {
+        Status::Measured if context.time_meaning == TimeMeaning::MeasurementTime => {
             format!("At {time}: {}.", describe_distance(row))
         }
         Status::Measured => format!("Nearest at {time}: {}.", describe_distance(row)),
@@ -80,7 +81,7 @@ pub(super) fn verdict(
             ),
         },
         Status::Unverified => format!("{clearance} is not verified: {reason}."),
-        Status::Unresolved => match asked.time_meaning {
+        Status::Unresolved => match context.time_meaning {
             TimeMeaning::UncertifiedFirstContact => {
                 format!("Not resolved ({reason}) after {time}. Not certified.")
             }
@@ -88,8 +89,8 @@ pub(super) fn verdict(
                 format!("Not resolved ({reason}) after {time}, as the table says.")
             }
             TimeMeaning::FirstContactAfterParting => format!(
-                "Not resolved ({reason}). Proven: nothing touches before {time}, but for a contact at the start that \
-                 was let go."
+                "Not resolved ({reason}). Proven: nothing touches before {time}, except for a contact at the start, \
+                 which was ignored until the bodies parted."
             ),
             _ => format!(
                 "Not resolved ({reason}). Proven: nothing touches before {time}. After it nothing is known."
@@ -107,10 +108,10 @@ fn describe_end_of_start_contact(row: &ResultRow) -> String {
     })
 }
 
-/// Describes in words a contact that begins after the start.
-fn describe_contact_after_start(row: &ResultRow, asked: QueryContext, time: &str) -> String {
-    let margin = format_rounded_down(asked.query_margin);
-    let (first, at, before) = if asked.query_margin > 0.0 {
+/// Describes a contact that begins after the start.
+fn describe_contact_after_start(row: &ResultRow, context: QueryContext, time: &str) -> String {
+    let margin = format_rounded_down(context.query_margin);
+    let (first, at, before) = if context.query_margin > 0.0 {
         (
             format!("First within the margin of {margin}"),
             format!("Within the margin of {margin}"),
@@ -123,31 +124,34 @@ fn describe_contact_after_start(row: &ResultRow, asked: QueryContext, time: &str
             "nothing touches before",
         )
     };
-    let touching = describe_contact(row);
-    match (asked.time_meaning, row.last_time) {
+    let contact = describe_contact(row);
+    match (context.time_meaning, row.last_time) {
         (TimeMeaning::FirstContact, None) => {
-            format!("{first} at {time}: {touching}. Proven: {before}.")
+            format!("{first} at {time}: {contact}. Proven: {before}.")
         }
         (TimeMeaning::FirstContact, Some(last)) => format!(
-            "{first} at {time}: {touching}. Proven: {before}, nor after {}.",
+            "{first} at {time}: {contact}. Proven: {before}, nor after {}.",
             number_rounded_up(last)
         ),
         (TimeMeaning::FirstContactAfterParting, _) => format!(
-            "{at} at {time}: {touching}. Proven: {before}, but for a contact at the start that was let go."
+            "{at} at {time}: {contact}. Proven: {before}, except for a contact at the start, which was ignored until the bodies parted."
         ),
         (TimeMeaning::SomeContact | TimeMeaning::MeasurementTime, _) => {
-            format!("{at} at {time}: {touching}. There may be an earlier one.")
+            format!("{at} at {time}: {contact}. There may be an earlier one.")
         }
         (TimeMeaning::UncertifiedFirstContact, _) => {
-            format!("{at} at {time}: {touching}. Not certified: it may be late.")
+            format!("{at} at {time}: {contact}. Not certified: it may be late.")
         }
-        (TimeMeaning::TableTime, _) => format!("{at} at {time}, as the table says: {touching}."),
+        (TimeMeaning::TableTime, _) => format!("{at} at {time}, as the table says: {contact}."),
     }
 }
 
-fn describe_free_bodies(asked: QueryContext, end: f64, proven: Option<f64>) -> String {
+fn describe_free_bodies(context: QueryContext, end: f64, least_proven_gap: Option<f64>) -> String {
     let end = format_rounded_down(end);
-    match (asked.time_meaning, proven.filter(|gap| *gap > 0.0)) {
+    match (
+        context.time_meaning,
+        least_proven_gap.filter(|gap| *gap > 0.0),
+    ) {
         (_, Some(gap)) => format!(
             "No contact, to the end at {end}. Proven: never nearer than {}.",
             format_rounded_down(gap)
@@ -160,14 +164,14 @@ fn describe_free_bodies(asked: QueryContext, end: f64, proven: Option<f64>) -> S
         }
         (TimeMeaning::FirstContactAfterParting, None) => {
             format!(
-                "No contact, to the end at {end}. Proven, but for one at the start that was let go."
+                "No contact, to the end at {end}. Proven, except for a contact at the start, which was ignored until the bodies parted."
             )
         }
         (_, None) => format!("No contact, to the end at {end}. Proven."),
     }
 }
 
-/// Describes in words which features touch or are nearest.
+/// Describes which features touch or are nearest.
 pub(super) fn describe_contact(row: &ResultRow) -> String {
     let features = match (&row.feature_a, &row.feature_b) {
         (Some(a), Some(b)) => format!(

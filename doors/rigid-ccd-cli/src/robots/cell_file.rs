@@ -1,5 +1,5 @@
-//! Reads what is around a robot: a TOML file of obstacles, other robots, held objects, paddings and clearances; or the parts of
-//! a glTF.
+//! Reads the cell of a robot: a TOML file of obstacles, other robots, held objects, paddings and clearances; or a glTF whose
+//! parts are obstacles.
 
 mod pairs;
 mod values;
@@ -32,10 +32,10 @@ pub(super) struct CellFile {
     /// Bodies that links hold.
     #[serde(default)]
     attached: Vec<AttachedBody>,
-    /// The distances that obstacles have to keep from links, in addition to that of all pairs.
+    /// The distances that obstacles have to keep from links, in addition to the clearance of all pairs.
     #[serde(default)]
     padding: BTreeMap<String, f64>,
-    /// The distances that single pairs have to keep, instead of that of all pairs and the padding.
+    /// The distances that single pairs have to keep, instead of the clearance of all pairs and the padding.
     #[serde(default)]
     clearance: Vec<Clearance>,
     /// The pairs that may touch.
@@ -51,7 +51,7 @@ struct Obstacle {
     position: Option<Vec<f64>>,
     rpy: Option<Vec<f64>>,
     quaternion_xyzw: Option<Vec<f64>>,
-    /// How it moves; `None` if it rests.
+    /// How the obstacle moves; `None` if it rests.
     moves: Option<BaseMotion>,
 }
 
@@ -65,19 +65,19 @@ struct Plane {
     quaternion_xyzw: Option<Vec<f64>>,
 }
 
-/// A robot beside that of the command.
+/// A robot in addition to the one that the command names.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct OtherRobot {
     name: String,
     urdf: String,
     srdf: Option<String>,
-    /// The link that carries its base; `None` for the world.
+    /// The link to which the base is attached; `None` for the world.
     on: Option<String>,
     position: Option<Vec<f64>>,
     rpy: Option<Vec<f64>>,
     quaternion_xyzw: Option<Vec<f64>>,
-    /// How its base moves; `None` if it rests.
+    /// How the base moves; `None` if it rests.
     base: Option<BaseMotion>,
 }
 
@@ -113,14 +113,14 @@ struct AttachedBody {
     may_touch: Vec<String>,
 }
 
-/// What is around a robot, with the file that says so.
+/// A parsed cell file: TOML with its folder, or the path of a glTF.
 pub(super) enum CellSource<'p> {
     Toml(CellFile, &'p Path),
     Gltf(&'p Path),
 }
 
 impl<'p> CellSource<'p> {
-    /// Reads a cell file. The files that it names are looked for next to it, when the robots and the bodies are made.
+    /// Reads a cell file. The files that it names are searched next to it, and are read later.
     ///
     /// # Errors
     /// If the file cannot be read.
@@ -148,8 +148,8 @@ impl<'p> CellSource<'p> {
         }
     }
 
-    /// Combines a robot with the others of the file, and with its obstacles that move. Its links and joints keep their names,
-    /// and its base is the origin. `options` sets those for the file of a robot.
+    /// Combines a robot with the other robots and the moving obstacles of the file. The links and joints of the robot keep
+    /// their names, and its base is the origin. `options` sets how the file of a robot is read.
     ///
     /// # Errors
     /// If a robot or a body cannot be read, or names are not unique.
@@ -176,25 +176,25 @@ impl<'p> CellSource<'p> {
         if others.is_empty() {
             return Ok(robot);
         }
-        let (own, pairs) = &robot;
-        let own = PlacedRobot {
+        let (first_robot, pairs) = &robot;
+        let first_robot = PlacedRobot {
             name: "",
-            robot: own,
+            robot: first_robot,
             pairs,
             carrier: None,
             pose: Pose::IDENTITY,
             base_motion: None,
         };
         let others = others.iter().map(OwnedRobot::placed);
-        let all: Vec<PlacedRobot<'_>> = std::iter::once(own).chain(others).collect();
-        Ok(Robot::combine(&all)?)
+        let robots: Vec<PlacedRobot<'_>> = std::iter::once(first_robot).chain(others).collect();
+        Ok(Robot::combine(&robots)?)
     }
 
     /// Adds obstacles at rest, attached bodies, paddings and clearances to a cell. Bodies are named as in `--a` of
     /// `ccd query`.
     ///
     /// # Errors
-    /// If a file cannot be read, or names something that there is not.
+    /// If a file cannot be read, or a name is unknown.
     pub(super) fn add_to(&self, cell: &mut Cell) -> Result<()> {
         let (file, folder) = match self {
             CellSource::Toml(file, folder) => (file, folder),
@@ -249,12 +249,12 @@ impl<'p> CellSource<'p> {
     }
 }
 
-/// Returns the line of a byte in a TOML text, with what stands there and the header of its table, unless it is that.
+/// Returns the number and the text of the line of a byte in a TOML text, with the header of the line's table.
 fn place_in(text: &str, byte: usize) -> String {
     let number = 1 + text[..byte].matches('\n').count();
     let lines = || text.lines().take(number).map(str::trim);
     let line = lines().last().unwrap_or_default();
-    let header = lines().filter(|own| own.starts_with('[')).last();
+    let header = lines().filter(|line| line.starts_with('[')).last();
     match header {
         Some(header) if header != line => format!("line {number}, `{line}` of {header}"),
         _ => format!("line {number}, `{line}`"),
@@ -265,30 +265,40 @@ impl CellFile {
     /// Returns the remarks on the rotations of the file.
     fn remarks(&self) -> Vec<CellRemark> {
         type Angles = Option<Vec<f64>>;
-        let of = |kind: &str, name: &str, rpy: &Angles, quaternion: &Angles| {
+        let remark_on = |kind: &str, name: &str, rpy: &Angles, quaternion: &Angles| {
             let rpy = rpy.as_deref().and_then(|rpy| rpy.try_into().ok());
-            let quaternion = quaternion.as_deref().and_then(|own| own.try_into().ok());
+            let quaternion = quaternion
+                .as_deref()
+                .and_then(|quaternion| quaternion.try_into().ok());
             let remark = rpy
                 .and_then(Remark::remark_on_roll_pitch_yaw)
                 .or(quaternion.and_then(Remark::remark_on_quaternion))?;
             Some(CellRemark::on(format!("{kind} {name}"), remark))
         };
         let obstacles = self.obstacle.iter();
-        let obstacles =
-            obstacles.map(|own| of("obstacle", &own.name, &own.rpy, &own.quaternion_xyzw));
+        let obstacles = obstacles
+            .map(|entry| remark_on("obstacle", &entry.name, &entry.rpy, &entry.quaternion_xyzw));
         let planes = self.plane.iter();
-        let planes = planes.map(|own| of("plane", &own.name, &own.rpy, &own.quaternion_xyzw));
+        let planes =
+            planes.map(|entry| remark_on("plane", &entry.name, &entry.rpy, &entry.quaternion_xyzw));
         let robots = self.robot.iter();
-        let robots = robots.map(|own| of("robot", &own.name, &own.rpy, &own.quaternion_xyzw));
+        let robots =
+            robots.map(|entry| remark_on("robot", &entry.name, &entry.rpy, &entry.quaternion_xyzw));
         let attached = self.attached.iter();
-        let attached =
-            attached.map(|own| of("attached body", &own.name, &own.rpy, &own.quaternion_xyzw));
-        let all = obstacles.chain(planes).chain(robots).chain(attached);
-        all.flatten().collect()
+        let attached = attached.map(|entry| {
+            remark_on(
+                "attached body",
+                &entry.name,
+                &entry.rpy,
+                &entry.quaternion_xyzw,
+            )
+        });
+        let remarks = obstacles.chain(planes).chain(robots).chain(attached);
+        remarks.flatten().collect()
     }
 }
 
-/// A robot of the file with its place.
+/// A robot of the file with its placement.
 struct OwnedRobot {
     name: String,
     robot: Robot,
@@ -344,20 +354,20 @@ impl Obstacle {
     }
 }
 
-fn add_obstacle(cell: &mut Cell, folder: &Path, given: &Obstacle) -> Result<()> {
-    let body = body_beside(folder, &given.body)?;
-    let pose = pose(&given.position, &given.rpy, &given.quaternion_xyzw)?;
-    Ok(cell.add_obstacle(&given.name, body, pose)?)
+fn add_obstacle(cell: &mut Cell, folder: &Path, entry: &Obstacle) -> Result<()> {
+    let body = body_beside(folder, &entry.body)?;
+    let pose = pose(&entry.position, &entry.rpy, &entry.quaternion_xyzw)?;
+    Ok(cell.add_obstacle(&entry.name, body, pose)?)
 }
 
-fn attach(cell: &mut Cell, folder: &Path, given: &AttachedBody) -> Result<()> {
-    let body = body_beside(folder, &given.body)?;
-    let pose = pose(&given.position, &given.rpy, &given.quaternion_xyzw)?;
-    let may_touch: Vec<&str> = given.may_touch.iter().map(String::as_str).collect();
-    Ok(cell.attach(&given.name, body, (&given.link, pose), &may_touch)?)
+fn attach(cell: &mut Cell, folder: &Path, entry: &AttachedBody) -> Result<()> {
+    let body = body_beside(folder, &entry.body)?;
+    let pose = pose(&entry.position, &entry.rpy, &entry.quaternion_xyzw)?;
+    let may_touch: Vec<&str> = entry.may_touch.iter().map(String::as_str).collect();
+    Ok(cell.attach(&entry.name, body, (&entry.link, pose), &may_touch)?)
 }
 
-/// Makes the body that a text names, in metres. A file is looked for in a folder, unless its path is absolute.
+/// Loads the body that a text describes, in metres. A relative path of a file starts at `folder`.
 fn body_beside(folder: &Path, text: &str) -> Result<Body> {
     let mut source: BodySource = text.parse()?;
     match &mut source {

@@ -9,57 +9,30 @@ use rigid_ccd::trajectory::JointKind;
 use rigid_ccd_robot::Robot;
 use std::str::FromStr;
 
-/// The options that say where joints are that a table has no columns for.
+/// The options for joints without columns in a table, and for the unit of angles.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct JointsArgs {
-    /// Position at which a joint rests, such as finger=0.04 or hip=30deg, or without a table a range over which it moves, such as
-    /// knee=-90deg:40deg; several joints move together
+    /// Position at which a joint rests, such as finger=0.04 or hip=30deg. Without a table it may be a range over which
+    /// the joint moves, such as knee=-90deg:40deg; several joints move together
     #[arg(long, value_name = "NAME=FROM:TO", allow_hyphen_values = true)]
-    joint: Vec<JointRange>,
-    /// Let all joints rest that have neither columns nor --joint: at 0, or at their limit nearest to 0; without this option they are
-    /// an error
+    pub(crate) joint: Vec<JointRange>,
+    /// Let all joints without columns and without --joint rest at 0, or at their limit nearest to 0; without this
+    /// option they are an error
     #[arg(long)]
-    rest: bool,
-    /// Take the positions of joints that turn in the table as degrees; without this option only those of columns that end in _deg
+    pub(crate) rest: bool,
+    /// Read the positions of revolute joints in the table as degrees; without this option only columns that end in _deg
+    /// have degrees
     #[arg(long)]
-    degrees: bool,
-}
-
-/// Where joints are that a table has no columns for.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct GivenJoints<'a> {
-    /// The positions and ranges of the joints that are named.
-    pub(crate) named: &'a [JointRange],
-    pub(crate) others: OtherJoints,
-    /// The unit of the positions of joints that turn, in columns that say none.
-    pub(crate) unit: AngleUnit,
-}
-
-/// What joints do that have neither columns nor a position.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum OtherJoints {
-    /// They are an error.
-    Refused,
-    /// They rest at 0, or at their limit nearest to 0.
-    Rest,
+    pub(crate) degrees: bool,
 }
 
 impl JointsArgs {
-    pub(crate) fn given(&self) -> GivenJoints<'_> {
-        let others = if self.rest {
-            OtherJoints::Rest
-        } else {
-            OtherJoints::Refused
-        };
-        let unit = if self.degrees {
+    /// Returns the unit of angles in columns whose names end in no unit.
+    pub(crate) fn unit(&self) -> AngleUnit {
+        if self.degrees {
             AngleUnit::Degree
         } else {
             AngleUnit::Radian
-        };
-        GivenJoints {
-            named: &self.joint,
-            others,
-            unit,
         }
     }
 }
@@ -70,11 +43,11 @@ pub(crate) struct JointRange {
     pub(crate) joint: String,
     pub(crate) from: f64,
     pub(crate) to: f64,
-    /// The quantity of the unit that the positions are given in, if they say one.
+    /// The quantity that the unit of the positions measures; `None` if they have no unit.
     quantity: Option<Quantity>,
 }
 
-/// What a unit measures.
+/// The quantity that a unit measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Quantity {
     Angle,
@@ -95,14 +68,14 @@ impl FromStr for JointRange {
             "give a joint with a position or a range, such as hip=0.3 or knee=-90deg:40deg",
         )?;
         let (from, to) = positions.split_once(':').unwrap_or((positions, positions));
-        let (from, of_from) = position(from)?;
-        let (to, of_to) = position(to)?;
-        if let (Some(one), Some(other)) = (of_from, of_to)
+        let (from, from_quantity) = position(from)?;
+        let (to, to_quantity) = position(to)?;
+        if let (Some(one), Some(other)) = (from_quantity, to_quantity)
             && one != other
         {
             return Err(format!("`{positions}` has an angle and a length"));
         }
-        let (joint, quantity) = (joint.to_owned(), of_from.or(of_to));
+        let (joint, quantity) = (joint.to_owned(), from_quantity.or(to_quantity));
         Ok(JointRange {
             joint,
             from,
@@ -112,20 +85,18 @@ impl FromStr for JointRange {
     }
 }
 
-/// Refuses names that no joint with a position of its own has, names that occur twice, and units that do not fit a joint.
-pub(crate) fn check_joints(robot: &Robot, given: &[JointRange]) -> Result<()> {
+/// Refuses names of no independent joint, names that occur twice, and units that do not fit a joint.
+pub(crate) fn check_joints(robot: &Robot, ranges: &[JointRange]) -> Result<()> {
     let names: Vec<&str> = robot.independent_joint_names().collect();
-    for (k, range) in given.iter().enumerate() {
+    for (k, range) in ranges.iter().enumerate() {
         let name = &range.joint;
-        if given[..k].iter().any(|other| other.joint == *name) {
+        if ranges[..k].iter().any(|other| other.joint == *name) {
             bail!("--joint {name}: is given twice");
         }
         let joint = robot.joints().iter().find(|joint| joint.name == *name);
         let Some(joint) = joint.filter(|_| names.contains(&name.as_str())) else {
             let names = names.join(", ");
-            bail!(
-                "--joint {name}: no joint has this name and a position of its own; there are {names}"
-            );
+            bail!("--joint {name}: no independent joint has this name; there are {names}");
         };
         let turns = matches!(joint.geometry.kind(), JointKind::Revolute(_));
         match range.quantity {
@@ -149,8 +120,8 @@ fn position(text: &str) -> std::result::Result<(f64, Option<Quantity>), String> 
     let plain = || Some((parse_finite(text.trim())?, None));
     let angle = || Some((with_unit(text, ANGLES)?, Some(Quantity::Angle)));
     let length = || Some((with_unit(text, LENGTHS)?, Some(Quantity::Length)));
-    let found = plain().or_else(angle).or_else(length);
-    found.ok_or_else(|| format!("`{text}` is no position, such as 0.3, 40deg or 12mm"))
+    let position = plain().or_else(angle).or_else(length);
+    position.ok_or_else(|| format!("`{text}` is no position, such as 0.3, 40deg or 12mm"))
 }
 
 /// Parses a length in metres, the unit of robots, or in another unit, such as `0.3mm`.
@@ -166,16 +137,16 @@ pub(crate) fn tolerance_length(text: &str) -> std::result::Result<f64, String> {
     tolerance(&length(text)?.to_string())
 }
 
-/// Parses a number with one of the units, which are given with how many of them make 1.
+/// Parses a number with one of the given units. Each unit comes with the number of units in one radian or one metre.
 ///
 /// The number is divided, because the factors are whole numbers where that is possible: `0.3mm` is the number next to 0.0003.
 fn with_unit(text: &str, units: &[(&str, f64)]) -> Option<f64> {
     let text = text.trim();
-    let found = units
+    let digits_and_unit = units
         .iter()
-        .find_map(|&(unit, per_one)| Some((text.strip_suffix(unit)?, per_one)));
-    let (digits, per_one) = found?;
-    Some(parse_finite(digits.trim())? / per_one)
+        .find_map(|&(unit, units_per_one)| Some((text.strip_suffix(unit)?, units_per_one)));
+    let (digits, units_per_one) = digits_and_unit?;
+    Some(parse_finite(digits.trim())? / units_per_one)
 }
 
 #[cfg(test)]

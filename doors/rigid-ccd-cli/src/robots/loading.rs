@@ -1,12 +1,11 @@
 //! Loads a robot from URDF or MJCF and from SRDF, and the cell around it.
 
 use super::cell_file::CellSource;
-use crate::console::print_escaped_to_stderr;
-use crate::console::print_remarks;
 use crate::console::progress::Progress;
-use crate::files::refuse_overwriting_input;
+use crate::console::{print_escaped_to_stderr, print_remarks};
+use crate::options::named::{Named, named_value_parser};
 use anyhow::{Context, Result, bail};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use rigid_ccd_robot::{
     BodyElements, Cell, CellRemark, CheckSummary, LeftOutPairs, LinkPairs, MeshConversion, Robot,
     RobotFile, SkipReason,
@@ -23,19 +22,19 @@ pub(crate) struct RobotArgs {
     #[arg(long, value_name = "FOLDER")]
     packages: Vec<PathBuf>,
     /// Shapes of the robot that become bodies
-    #[arg(long, value_enum, default_value_t)]
-    geometry: GeometryArg,
-    /// What a mesh of a link becomes
-    #[arg(long, value_enum, default_value_t)]
-    meshes: MeshesArg,
+    #[arg(long, value_parser = named_value_parser(GEOMETRIES), default_value = "collision")]
+    geometry: BodyElements,
+    /// Bodies that the meshes of links become
+    #[arg(long, value_parser = named_value_parser(MESH_CONVERSIONS), default_value = "exact")]
+    meshes: MeshConversion,
 }
 
-/// The options that name a robot with what is around it.
+/// The options that name a robot and its cell.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct CellArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
-    /// Pairs of links that are not checked, or nevertheless, SRDF
+    /// Pairs of links to leave out (disable_collisions) or to check anyway (enable_collisions), SRDF
     #[arg(long, value_name = "SRDF")]
     srdf: Option<PathBuf>,
     /// Obstacles, other robots, held objects, paddings and clearances, TOML; or obstacles alone, the parts of a glTF
@@ -44,24 +43,32 @@ pub(crate) struct CellArgs {
 }
 
 /// The values of `--geometry`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum GeometryArg {
-    /// Those for collision checks: elements `collision`, or geoms that can collide
-    #[default]
-    Collision,
-    /// Those for drawing: elements `visual`, or geoms of the groups 0 to 2
-    Visual,
-}
+const GEOMETRIES: Named<BodyElements, 2> = [
+    (
+        "collision",
+        BodyElements::Collision,
+        "Shapes for collision checks: elements `collision`, or geoms that can collide",
+    ),
+    (
+        "visual",
+        BodyElements::Visual,
+        "Shapes for drawing: elements `visual`, or geoms of the groups 0 to 2",
+    ),
+];
 
 /// The values of `--meshes`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum MeshesArg {
-    /// Convex pieces that are exact
-    #[default]
-    Exact,
-    /// The convex hull of the mesh: contacts may be early, by an excess that is printed
-    Hull,
-}
+const MESH_CONVERSIONS: Named<MeshConversion, 2> = [
+    (
+        "exact",
+        MeshConversion::Exact,
+        "Convex pieces that are exact",
+    ),
+    (
+        "hull",
+        MeshConversion::OuterHull,
+        "The convex hull of the mesh: contacts may be early, by an excess that is printed",
+    ),
+];
 
 impl RobotArgs {
     /// Returns whether a robot is given.
@@ -69,7 +76,7 @@ impl RobotArgs {
         self.urdf.is_some()
     }
 
-    /// Returns the path of the robot's file; empty if no robot is given, which commands about robots alone refuse.
+    /// Returns the path of the robot's file; empty if no robot is given. Commands that need a robot refuse that.
     pub(crate) fn path(&self) -> &Path {
         self.urdf.as_deref().unwrap_or(Path::new(""))
     }
@@ -80,28 +87,20 @@ impl RobotArgs {
 
     /// Sets the options for the reading of a robot's file.
     fn with_options(&self, file: RobotFile) -> RobotFile {
-        let elements = match self.geometry {
-            GeometryArg::Collision => BodyElements::Collision,
-            GeometryArg::Visual => BodyElements::Visual,
-        };
-        let meshes = match self.meshes {
-            MeshesArg::Exact => MeshConversion::Exact,
-            MeshesArg::Hull => MeshConversion::OuterHull,
-        };
         let file = file
-            .with_body_element_kind(elements)
-            .with_mesh_conversion(meshes);
+            .with_body_element_kind(self.geometry)
+            .with_mesh_conversion(self.meshes);
         // The last folder that is added is searched first.
         let folders = self.packages.iter().rev();
         folders.fold(file, |file, folder| file.with_package_folder(folder))
     }
 
-    /// Returns the file of the robot with the name that messages give it; meshes are left out.
+    /// Returns the robot's file with its name in messages, without the files of meshes.
     pub(crate) fn files(&self) -> impl Iterator<Item = (&'static str, &Path)> {
         std::iter::once(("ROBOT", self.path()))
     }
 
-    /// Reads the robot, and prints what its links are, unless `quiet`.
+    /// Reads the robot, and prints its links and joints unless `quiet`.
     pub(crate) fn load(&self, quiet: bool) -> Result<Robot> {
         let progress = Progress::start_single_step("reading the robot's meshes", quiet);
         let name = || self.path().display().to_string();
@@ -117,7 +116,7 @@ impl RobotArgs {
                 joints.join(", ")
             ));
             for link in robot.links() {
-                let excess = link.bodies.iter().map(|held| held.body.excess());
+                let excess = link.bodies.iter().map(|attached| attached.body.excess());
                 let excess = excess.fold(0.0, ccd_core::order::greater);
                 if excess > 0.0 {
                     print_escaped_to_stderr(&format!(
@@ -130,25 +129,29 @@ impl RobotArgs {
         Ok(robot)
     }
 
-    /// Adds to an error what a robot's file is, if its name is that of another.
+    /// Adds a hint to an error if the robot's file has the extension of another kind of file.
     fn explain(&self, error: impl Into<anyhow::Error>) -> anyhow::Error {
-        let extension = self.path().extension().and_then(|own| own.to_str());
+        let extension = self
+            .path()
+            .extension()
+            .and_then(|extension| extension.to_str());
         let error = error.into();
         match extension {
             Some("toml" | "csv" | "parquet" | "srdf" | "glb" | "gltf" | "obj" | "stl") => {
-                error.context("ROBOT is a URDF or MJCF file; --cell takes what is around it")
+                error.context("ROBOT is a URDF or MJCF file; --cell takes its surroundings")
             }
             _ => error,
         }
     }
 
-    /// Returns which pairs of links are checked without any other file. Prints what is checked, and the remarks on the robot.
+    /// Returns the pairs of links that are checked according to the robot's file alone. Prints a summary of these
+    /// pairs, and the remarks on the robot.
     ///
     /// # Errors
     /// If the file cannot be read again.
     pub(crate) fn link_pairs_printed(&self, robot: &Robot, quiet: bool) -> Result<LinkPairs> {
         let pairs = self.file().link_pairs(robot, None)?;
-        print_checked(&pairs.check_summary(robot), &pairs.remarks(robot), quiet);
+        print_check_summary(&pairs.check_summary(robot), &pairs.remarks(robot), quiet);
         Ok(pairs)
     }
 }
@@ -173,25 +176,31 @@ impl CellArgs {
                 remarks.collect::<String>()
             );
         }
-        print_checked(&cell.check_summary(), &remarks, quiet);
+        print_check_summary(&cell.check_summary(), &remarks, quiet);
         if !quiet {
             print_escaped_to_stderr(&format!("sizes in metres: {}", cell.sizes_text()));
         }
         Ok(cell)
     }
 
-    /// Makes the cell of a robot, and of what a file says is around it.
-    fn load_cell_file(&self, file: &Path, own: (Robot, LinkPairs), quiet: bool) -> Result<Cell> {
+    /// Makes the cell of a robot and of the objects in a cell file.
+    fn load_cell_file(
+        &self,
+        file: &Path,
+        robot_and_pairs: (Robot, LinkPairs),
+        quiet: bool,
+    ) -> Result<Cell> {
         let source = CellSource::read(file)?;
-        let own_joint_count = own.0.independent_joint_names().len();
-        let (robot, pairs) = source.combine(own, |file| self.robot.with_options(file))?;
+        let robot_joint_count = robot_and_pairs.0.independent_joint_names().len();
+        let (robot, pairs) =
+            source.combine(robot_and_pairs, |file| self.robot.with_options(file))?;
         let mut cell = Cell::new(robot, pairs);
         source.add_to(&mut cell)?;
         print_remarks(source.remarks());
         if !quiet {
             let obstacles: Vec<&str> = cell.obstacle_names().collect();
             let others: Vec<&str> = cell.robot().independent_joint_names().collect();
-            let others = &others[own_joint_count..];
+            let others = &others[robot_joint_count..];
             let mut text = format!(
                 "{}: {} obstacles: {}",
                 file.display(),
@@ -212,28 +221,10 @@ impl CellArgs {
         let cell = self.cell.iter().map(|path| ("--cell", path.as_path()));
         self.robot.files().chain(srdf).chain(cell)
     }
-
-    /// Refuses an output that would overwrite a file that is read.
-    pub(crate) fn refuse_overwriting(&self, outputs: &[(&'static str, &Path)]) -> Result<()> {
-        refuse_overwriting_any(self.files(), outputs)
-    }
 }
 
-/// Refuses outputs that would overwrite a file that is read.
-pub(crate) fn refuse_overwriting_any<'a>(
-    files: impl Iterator<Item = (&'static str, &'a Path)>,
-    outputs: &[(&'static str, &Path)],
-) -> Result<()> {
-    for (option, file) in files {
-        for &(output, path) in outputs {
-            refuse_overwriting_input((option, file), (output, path))?;
-        }
-    }
-    Ok(())
-}
-
-/// Prints what is compared, and the remarks; if `quiet`, only the warnings.
-fn print_checked(summary: &CheckSummary, remarks: &[CellRemark], quiet: bool) {
+/// Prints a summary of the pairs that are checked, and the remarks on them; if `quiet`, only the warnings.
+fn print_check_summary(summary: &CheckSummary, remarks: &[CellRemark], quiet: bool) {
     if !quiet {
         print_escaped_to_stderr(&summary.to_string());
     }
@@ -253,7 +244,7 @@ fn print_checked(summary: &CheckSummary, remarks: &[CellRemark], quiet: bool) {
     let moves = |group: &LeftOutPairs| group.reason != SkipReason::NoMotion;
     if !quiet && summary.left_out_pairs.iter().any(moves) {
         print_escaped_to_stderr(
-            "a [[clearance]] between two links in the --cell, or enable_collisions in the --srdf, checks a pair",
+            "to check a pair anyway, give it a [[clearance]] in the --cell, or enable_collisions in the --srdf",
         );
     }
 }

@@ -1,7 +1,7 @@
 //! Draws a robot that follows a path, with the distance of the nearest pair over it.
 
 use super::path_table::TablePath;
-use crate::picture::{AnimationGroup, Page, drawn_mesh};
+use crate::picture::{FIXED_COLOR, drawn_mesh, numbered_body_color};
 use anyhow::{Result, bail};
 use ccd_core::order::greater;
 use ccd_view::{
@@ -16,20 +16,16 @@ use std::collections::HashMap;
 pub(crate) const MAX_RANGES: usize = 512;
 /// The greatest number of halvings of a segment.
 const MAX_HALVINGS: u32 = 6;
-/// The step in hue from one body to the next, in degrees: the golden angle.
-const HUE_STEP: f64 = 137.508;
-/// The colour of obstacles, in CSS.
-const OBSTACLE_COLOR: &str = "#b8b8b8";
 
 /// Makes the animations of one page, on which all have the same bodies.
 pub(crate) struct RobotPainter<'c> {
     cell: &'c Cell,
     meshes: Meshes,
-    drawn: Vec<Drawn>,
+    drawn: Vec<DrawnBody>,
 }
 
-/// What is drawn of a body.
-struct Drawn {
+/// The mesh that draws a body, and its pose.
+struct DrawnBody {
     /// The number of the mesh.
     mesh: usize,
     /// The pose of the mesh in the body's frame.
@@ -39,7 +35,7 @@ struct Drawn {
 impl<'c> RobotPainter<'c> {
     pub(crate) fn new(cell: &'c Cell) -> Result<Self> {
         let mut meshes = Meshes::default();
-        let mut known: HashMap<*const Body, usize> = HashMap::new();
+        let mut mesh_by_body: HashMap<*const Body, usize> = HashMap::new();
         let at_rest = cell.robot().configuration_nearest_zero();
         let bodies = cell.placed_bodies(&at_rest)?;
         let size = size_without_planes(cell, &bodies);
@@ -47,13 +43,13 @@ impl<'c> RobotPainter<'c> {
         for (number, (_, body, pose)) in bodies.into_iter().enumerate() {
             drawn.push(if cell.is_plane(number) {
                 let base = pose.inverse().transform_point(DVec3::ZERO);
-                Drawn {
+                DrawnBody {
                     mesh: meshes.add(&drawn_mesh(&Body::cuboid([size, size, 0.0])?)),
                     pose: Pose::at(base.with_z(0.0))?,
                 }
             } else {
-                Drawn {
-                    mesh: *known
+                DrawnBody {
+                    mesh: *mesh_by_body
                         .entry(body)
                         .or_insert_with(|| meshes.add(&drawn_mesh(body))),
                     pose: Pose::IDENTITY,
@@ -67,15 +63,9 @@ impl<'c> RobotPainter<'c> {
         })
     }
 
-    pub(crate) fn page<'t>(&self, title: &'t str, views: Vec<Animation>) -> Page<'t> {
-        Page {
-            title,
-            groups: vec![AnimationGroup {
-                name: String::new(),
-                views,
-            }],
-            meshes: self.meshes.clone(),
-        }
+    /// Returns the meshes that all animations of this painter draw.
+    pub(crate) fn meshes(&self) -> &Meshes {
+        &self.meshes
     }
 
     /// Makes the animation of a path. The clearance is the solver's margin.
@@ -116,18 +106,18 @@ impl<'c> RobotPainter<'c> {
             .iter()
             .filter_map(|range| Some((range.closest.upper(), range.closest.nearest()?)));
         let nearest = least.reduce(|one, other| if other.0 < one.0 { other } else { one });
-        let shown = first
+        let contact = first
             .outcome
             .nearest()
             .or(nearest.map(|(_, nearest)| nearest));
         Ok(Animation {
             start: path.table_time_rounded_down(0.0),
-            time: shown.map_or(0.0, |shown| seconds(shown.at.time())),
+            time: contact.map_or(0.0, |contact| seconds(contact.at.time())),
             bodies: self.shown_bodies(path, halvings)?,
             gap: Some(gap).filter(|gap| !gap.points.is_empty()),
-            contacts: shown
+            contacts: contact
                 .iter()
-                .map(|shown| shown_contact(shown, &seconds))
+                .map(|contact| shown_contact(contact, &seconds))
                 .collect(),
             ..Animation::new(
                 &path.id,
@@ -150,29 +140,27 @@ impl<'c> RobotPainter<'c> {
             }
         }
         let items = self.cell.placed_bodies(&path.configurations[0])?;
-        let mut known: Vec<Item<'_>> = Vec::new();
-        let shown = items.iter().zip(&self.drawn).zip(poses);
-        let shown = shown.map(|(((item, ..), drawn), keys)| {
+        let mut known_items: Vec<Item<'_>> = Vec::new();
+        let bodies = items.iter().zip(&self.drawn).zip(poses);
+        let bodies = bodies.map(|(((item, ..), drawn), keys)| {
             // All bodies of a link have its colour.
-            let number = known.iter().position(|other| other == item);
+            let number = known_items.iter().position(|other| other == item);
             let number = number.unwrap_or_else(|| {
-                known.push(*item);
-                known.len() - 1
+                known_items.push(*item);
+                known_items.len() - 1
             });
             let color = match item {
-                Item::Obstacle(_) => OBSTACLE_COLOR.to_owned(),
-                _ => format!(
-                    "hsl({:.0}, 55%, 52%)",
-                    (150.0 + HUE_STEP * number as f64) % 360.0
-                ),
+                Item::Obstacle(_) => FIXED_COLOR.to_owned(),
+                _ => numbered_body_color(number),
             };
             ShownBody::new(item.name(), drawn.mesh, &color, shown_motion(&keys))
         });
-        Ok(shown.collect())
+        Ok(bodies.collect())
     }
 }
 
-/// Returns how far the bodies of a cell, except planes, are from the base at most: a plane is drawn as a square of that size.
+/// Returns an upper bound on the distance of the cell's bodies, except planes, from the base. A plane is drawn as a square
+/// of this size.
 fn size_without_planes(cell: &Cell, bodies: &[(Item<'_>, &Body, Pose)]) -> f64 {
     let others = bodies.iter().enumerate();
     let others = others.filter(|&(number, _)| !cell.is_plane(number));
@@ -215,17 +203,21 @@ fn shown_motion(keys: &[(f64, Pose)]) -> ShownMotion {
     if keys.iter().all(|(_, pose)| *pose == first) {
         return ShownMotion::from(&Motion::still(first));
     }
-    let turns = keys.windows(2).map(|two| {
-        let turn = two[1].1.rotation() * two[0].1.rotation().conjugate();
+    let rotation_vectors = keys.windows(2).map(|pair| {
+        let rotation = pair[1].1.rotation() * pair[0].1.rotation().conjugate();
         // The same rotation, by less than half a turn.
-        let turn = if turn.w < 0.0 { -turn } else { turn };
-        turn.to_scaled_axis()
+        let rotation = if rotation.w < 0.0 {
+            -rotation
+        } else {
+            rotation
+        };
+        rotation.to_scaled_axis()
     });
-    let turns = turns.chain([DVec3::ZERO]);
+    let rotation_vectors = rotation_vectors.chain([DVec3::ZERO]);
     let keys = keys
         .iter()
-        .zip(turns)
-        .map(|((time, pose), turn)| Keyframe::new(*time, pose, pose.translation(), turn));
+        .zip(rotation_vectors)
+        .map(|((time, pose), rotation)| Keyframe::new(*time, pose, pose.translation(), rotation));
     ShownMotion::Keyframes {
         center: [0.0; 3],
         keys: keys.collect(),
@@ -245,18 +237,18 @@ fn shown_contact(contact: &PathContact<'_>, seconds: &impl Fn(f64) -> f64) -> Sh
     }
 }
 
-/// Says in words what touches, or how near anything comes.
+/// Describes in words which pair touches first, or how near the nearest pair comes.
 fn verdict(
     first: &PathAnswer<'_>,
     nearest: Option<(f64, PathContact<'_>)>,
     clearance: f64,
 ) -> String {
-    let kept = if clearance > 0.0 {
+    let clearance_text = if clearance > 0.0 {
         format!(" with a clearance of {} mm", 1e3 * clearance)
     } else {
         String::new()
     };
-    let place = |contact: &PathContact<'_>| {
+    let contact_text = |contact: &PathContact<'_>| {
         let [a, b] = contact.items.map(Item::name);
         format!(
             "{a} and {b} at {:.4} of segment {}",
@@ -267,25 +259,25 @@ fn verdict(
     match (&first.outcome, nearest) {
         (PathOutcome::Contact(contact), _) => {
             format!(
-                "First contact{kept}: {}. Proven: free before.",
-                place(contact)
+                "First contact{clearance_text}: {}. Proven: free before.",
+                contact_text(contact)
             )
         }
         (PathOutcome::Free, Some((distance, contact))) => {
             format!(
-                "Free{kept}, proven. Nearest: {}, {:.3} mm apart.",
-                place(&contact),
+                "Free{clearance_text}, proven. Nearest: {}, {:.3} mm apart.",
+                contact_text(&contact),
                 1e3 * distance
             )
         }
-        (PathOutcome::Free, None) => format!("Free{kept}, proven."),
+        (PathOutcome::Free, None) => format!("Free{clearance_text}, proven."),
         (outcome, _) => {
             let PathPoint { segment, fraction } = first.free_until;
             let until = format!("{:.4} of segment {segment}", rounded_down(fraction));
             let limit = outcome
                 .limit()
                 .map_or_else(String::new, |limit| limit.to_string());
-            format!("Free{kept} until {until}; then a limit was reached: {limit}.")
+            format!("Free{clearance_text} until {until}; then a limit was reached: {limit}.")
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Reads a table of edges or paths of a robot, with columns named like its joints.
 
-use super::joint_values::{GivenJoints, OtherJoints, check_joints};
+use super::joint_values::{JointsArgs, check_joints};
 use crate::files::open_table;
 use crate::rows::resumable::RowSource;
 use anyhow::{Result, anyhow, bail};
@@ -14,10 +14,10 @@ use rigid_ccd_robot::{CellRemark, Robot};
 use std::collections::HashSet;
 use std::path::Path;
 
-/// A path that a table asks about.
+/// A path of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct TablePath {
-    /// The place of its first row.
+    /// The position of the first row of the path.
     pub(crate) position: RowPosition,
     pub(crate) id: String,
     pub(crate) configurations: Vec<Vec<f64>>,
@@ -36,25 +36,25 @@ pub(crate) struct PathTable {
     next: Option<RowPosition>,
     path_count: usize,
     known_ids: HashSet<String>,
-    /// The largest angle so far that is given in degrees.
+    /// The largest angle in degrees of the rows so far.
     largest_degrees: f64,
     /// The checksum and the length of the input up to the end of the last path.
     checksum: u32,
     consumed_bytes: u64,
 }
 
-/// Where the cells of a row are.
+/// The columns of a table, and their indices.
 struct PathColumns {
     header: Vec<String>,
     id: Option<usize>,
     time: Option<usize>,
-    /// The positions of the first configuration of a row, in the order of the robot's joints.
+    /// The sources of the first configuration of a row, in the order of the robot's joints.
     positions: Vec<PositionCell>,
-    /// The positions of the second configuration; `None` in a table of paths.
+    /// The sources of the second configuration; `None` in a table of paths.
     end_positions: Option<Vec<PositionCell>>,
 }
 
-/// Where the position of a joint comes from.
+/// The source of a joint's position: a cell of the row, or a constant.
 #[derive(Clone, Copy)]
 enum PositionCell {
     Cell(JointColumn),
@@ -62,7 +62,7 @@ enum PositionCell {
 }
 
 impl PathTable {
-    /// Opens a table. Joints that it has no columns for rest as given, or as all others do.
+    /// Opens a table. A joint without columns rests where `joints` says.
     ///
     /// # Errors
     /// If the table cannot be read, or a joint has no position.
@@ -70,10 +70,10 @@ impl PathTable {
         option: &str,
         path: &Path,
         robot: &Robot,
-        at_rest: GivenJoints<'_>,
+        joints: &JointsArgs,
     ) -> Result<(Self, Option<u64>)> {
         let (mut records, length) = open_table(option, path)?;
-        let columns = PathColumns::new(records.header()?, robot, at_rest)?;
+        let columns = PathColumns::new(records.header()?, robot, joints)?;
         let (checksum, consumed_bytes) = (records.checksum(), records.consumed_bytes());
         let table = PathTable {
             next: records.advance()?,
@@ -124,11 +124,11 @@ impl PathTable {
                 Some(_) => path,
             };
         }
-        let mut at = position;
+        let mut row_position = position;
         loop {
             path = path.and_then(|path| {
                 let added = self.columns.add_row(path, self.records.current());
-                added.map_err(|problem| (at, problem))
+                added.map_err(|problem| (row_position, problem))
             });
             let degrees = self.columns.largest_degrees(self.records.current());
             self.largest_degrees = greater(self.largest_degrees, degrees);
@@ -137,7 +137,7 @@ impl PathTable {
             self.next = self.records.advance()?;
             match self.next {
                 Some(next) if self.columns.continues(&given_id, self.records.current()) => {
-                    at = next;
+                    row_position = next;
                 }
                 _ => break,
             }
@@ -181,8 +181,8 @@ impl RowSource for PathTable {
 }
 
 impl PathColumns {
-    fn new(header: Vec<String>, robot: &Robot, at_rest: GivenJoints<'_>) -> Result<Self> {
-        check_joints(robot, at_rest.named)?;
+    fn new(header: Vec<String>, robot: &Robot, joint_args: &JointsArgs) -> Result<Self> {
+        check_joints(robot, &joint_args.joint)?;
         let nearest_zero = robot.configuration_nearest_zero();
         if header.iter().all(String::is_empty) {
             return Err(TableError::Empty.into());
@@ -212,10 +212,10 @@ impl PathColumns {
         let mut missing = Vec::new();
         let mut positions = |prefix: &str| {
             let cell = |(number, joint): (usize, &&str)| {
-                let column = joint_column(&header, robot, (prefix, joint), at_rest.unit)
+                let column = joint_column(&header, robot, (prefix, joint), joint_args.unit())
                     .map_err(|error| anyhow!("header: {error}"))?;
-                let rests = at_rest.named.iter().find(|range| range.joint == **joint);
-                match (column, rests) {
+                let range = joint_args.joint.iter().find(|range| range.joint == **joint);
+                match (column, range) {
                     (Some(_), Some(_)) => {
                         bail!("--joint {joint}: the table has columns for this joint")
                     }
@@ -226,7 +226,7 @@ impl PathColumns {
                     (None, Some(_)) => {
                         bail!("--joint {joint}: give one position, at which the joint rests")
                     }
-                    (None, None) if at_rest.others == OtherJoints::Rest => {
+                    (None, None) if joint_args.rest => {
                         Ok(PositionCell::AtRest(nearest_zero[number]))
                     }
                     (None, None) => {
@@ -238,7 +238,7 @@ impl PathColumns {
             let cells = joints.iter().enumerate().map(cell);
             cells.collect::<Result<Vec<_>>>()
         };
-        let mut found = prefixes
+        let mut cells_by_prefix = prefixes
             .iter()
             .map(|prefix| positions(prefix))
             .collect::<Result<Vec<_>>>()?;
@@ -249,11 +249,15 @@ impl PathColumns {
                 missing.join(", ")
             );
         }
-        let end_positions = if is_of_edges { found.pop() } else { None };
+        let end_positions = if is_of_edges {
+            cells_by_prefix.pop()
+        } else {
+            None
+        };
         let columns = PathColumns {
             id: find("id"),
             time: find("t").filter(|_| !is_of_edges),
-            positions: found.pop().unwrap_or_default(),
+            positions: cells_by_prefix.pop().unwrap_or_default(),
             end_positions,
             header,
         };
@@ -261,21 +265,21 @@ impl PathColumns {
         Ok(columns)
     }
 
-    /// Refuses columns that are not known, and those that are two things.
+    /// Refuses unknown columns, and columns with two meanings.
     fn refuse_unclear_columns(&self) -> Result<()> {
-        let mut known: Vec<usize> = self.id.into_iter().chain(self.time).collect();
+        let mut known_columns: Vec<usize> = self.id.into_iter().chain(self.time).collect();
         for cell in self.cells() {
             if let PositionCell::Cell(JointColumn { column, .. }) = *cell {
-                if known.contains(&column) {
+                if known_columns.contains(&column) {
                     let name = &self.header[column];
                     bail!(
                         "header: `{name}` may be the column {name} of a path, or the joint of this name; rename the joint"
                     );
                 }
-                known.push(column);
+                known_columns.push(column);
             }
         }
-        match (0..self.header.len()).find(|column| !known.contains(column)) {
+        match (0..self.header.len()).find(|column| !known_columns.contains(column)) {
             None => Ok(()),
             Some(unknown) => bail!(
                 "header: unknown column `{}`; known are id, t and the joints: of edges from_JOINT and to_JOINT; angles are in \
@@ -295,12 +299,12 @@ impl PathColumns {
         self.id.and_then(|column| record.text(column))
     }
 
-    /// Returns whether a row belongs to the path of the rows before it, which have an id or none.
+    /// Returns whether a row continues the path of the rows before it, whose id is `id`.
     fn continues(&self, id: &Option<String>, record: &impl Record) -> bool {
         self.end_positions.is_none() && self.id(record) == *id
     }
 
-    /// Returns the largest angle that a row gives in degrees; 0 if it gives none.
+    /// Returns the largest angle in degrees of a row; 0 without columns in degrees.
     fn largest_degrees(&self, record: &impl Record) -> f64 {
         let angles = self.cells().filter_map(|cell| match *cell {
             PositionCell::Cell(JointColumn {
@@ -343,20 +347,12 @@ impl PathColumns {
     }
 
     fn number(&self, record: &impl Record, column: usize) -> Result<f64, RowProblem> {
-        let name = || self.header[column].clone();
-        match record.number(column) {
-            Ok(Some(number)) => Ok(number),
-            Ok(None) => Err(RowProblem::EmptyCell { column: name() }),
-            Err(value) => Err(RowProblem::NotANumber {
-                column: name(),
-                value,
-            }),
-        }
+        record.required_number(column, &self.header[column])
     }
 }
 
 impl TablePath {
-    /// Returns an edge that is in no table; an edge without motion is one configuration.
+    /// Returns an edge between two configurations that are in no table. An edge without motion has one configuration.
     pub(crate) fn between([from, to]: [Vec<f64>; 2]) -> Self {
         let rests = from == to;
         let mut configurations = vec![from];
@@ -374,7 +370,7 @@ impl TablePath {
     /// Returns a remark on the first position that seems to be in degrees where radians are meant.
     pub(crate) fn remark(&self, robot: &Robot) -> Option<CellRemark> {
         let mut configurations = self.configurations.iter();
-        configurations.find_map(|at| robot.remark_on_configuration(at))
+        configurations.find_map(|configuration| robot.remark_on_configuration(configuration))
     }
 
     /// Converts the time of a path whose segments take one unit of time each to the time of the table, rounded down; without
@@ -388,7 +384,7 @@ impl TablePath {
         self.table_time(time, 1.0)
     }
 
-    /// Converts a time to the table's, with what it may be off by added with a sign. Times of rows stay exact.
+    /// Converts a time to the table's time, shifted by a bound on its rounding error times `sign`. Times of rows stay exact.
     fn table_time(&self, time: f64, sign: f64) -> f64 {
         let Some(times) = &self.times else {
             return time;
@@ -400,11 +396,11 @@ impl TablePath {
             return times[segment];
         }
         let (from, to) = (times[segment], times[segment + 1]);
-        // Beside the rounding here, the number of the segment leaves its fraction fewer bits.
-        let off = 4.0 * f64::EPSILON * (from.abs() + to.abs() + time * (to - from));
+        // The bound covers the rounding here, and the bits that the number of the segment takes from the fraction.
+        let time_error = 4.0 * f64::EPSILON * (from.abs() + to.abs() + time * (to - from));
         lesser(
             to,
-            greater(from, from + fraction * (to - from) + sign * off),
+            greater(from, from + fraction * (to - from) + sign * time_error),
         )
     }
 }

@@ -8,12 +8,10 @@ use ccd_file::Claim;
 use ccd_prove::{Body, NotProven, Proof, ProvenCell, ProvenPair};
 use ccd_tables::batch::BodyPair;
 use ccd_tables::motions::Motions;
-use rigid_ccd::Question;
-use rigid_ccd::Settings;
+use rigid_ccd::{Question, Settings};
 use rigid_ccd_robot::{Cell, CellSolver};
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 /// A folder of certificates, to which one run at a time writes.
 pub(crate) struct CertificateFolder {
@@ -22,7 +20,7 @@ pub(crate) struct CertificateFolder {
     _claim: Claim,
 }
 
-/// What a proof is about: a row of a table, and a segment if the row begins a path of several.
+/// The row of a table that a proof is about, and the number of the segment if the row begins a path of several segments.
 pub(crate) type ProvenRow = (usize, Option<usize>);
 
 impl CertificateFolder {
@@ -34,14 +32,26 @@ impl CertificateFolder {
         })
     }
 
+    /// Writes the meshes that the proofs of a run are about. A run that continues an earlier one requires them instead.
+    fn begin_or_resume<'b>(
+        &self,
+        bodies: impl Iterator<Item = (String, &'b Body)>,
+        earlier: Option<Checkpoint>,
+    ) -> Result<()> {
+        match earlier {
+            Some(earlier) if earlier.counts.row_count() > 0 => self.require_bodies(bodies),
+            _ => self.write_bodies(bodies),
+        }
+    }
+
     /// Writes meshes as `NAME.mesh`, and the certificates of their trees as `NAME.body`.
     ///
     /// # Errors
-    /// If the folder has another mesh of a name: its proofs would be lost with it.
+    /// If the folder has another mesh of the same name: without it, its proofs could not be checked.
     fn write_bodies<'b>(&self, bodies: impl Iterator<Item = (String, &'b Body)>) -> Result<()> {
         for (path, bytes) in bodies.flat_map(|named| self.files_of(named)) {
             match ccd_file::read(&path) {
-                Ok(there) if there == bytes => {}
+                Ok(content) if content == bytes => {}
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {
                     self.write(&path, bytes)?;
                 }
@@ -61,7 +71,7 @@ impl CertificateFolder {
     /// Refuses a folder that does not have the meshes of a run that is continued.
     fn require_bodies<'b>(&self, bodies: impl Iterator<Item = (String, &'b Body)>) -> Result<()> {
         for (path, bytes) in bodies.flat_map(|named| self.files_of(named)) {
-            if !ccd_file::read(&path).is_ok_and(|there| there == bytes) {
+            if !ccd_file::read(&path).is_ok_and(|content| content == bytes) {
                 bail!(
                     "--resume: {} does not have the proofs of the earlier run; give the same folder, or omit --resume to \
                      start over",
@@ -80,7 +90,7 @@ impl CertificateFolder {
         ]
     }
 
-    /// Writes the proof of a row as [`proof_file_name`] says.
+    /// Writes the proof of a row to the file that [`proof_file_name`] names.
     pub(crate) fn write_proof(
         &self,
         row: ProvenRow,
@@ -99,10 +109,11 @@ impl CertificateFolder {
 /// The greatest number of bytes of an id in the name of a file.
 const MAX_ID_BYTES: usize = 100;
 
-/// Returns the name of the file with the proof of a row: `ROW-ID.proof`, or `ROW.SEGMENT-ID.proof`. The numbers alone tell all
-/// proofs of a table apart. The id is for people: characters that a file name may not have are `_`, and a long id is cut.
+/// Returns the name of the file with the proof of a row: `ROW-ID.proof`, or `ROW.SEGMENT-ID.proof`. The numbers alone
+/// make the name unique in a table. The id is for readers: characters that a file name cannot have become `_`, and a
+/// long id is cut.
 fn proof_file_name((row, segment): ProvenRow, id: &str) -> String {
-    let keep = |c: char| {
+    let allowed_or_underscore = |c: char| {
         if c.is_alphanumeric() || "._-+".contains(c) {
             c
         } else {
@@ -114,62 +125,12 @@ fn proof_file_name((row, segment): ProvenRow, id: &str) -> String {
     if id == number {
         return format!("{number}{segment}.proof");
     }
-    let mut id: String = id.chars().map(keep).collect();
+    let mut id: String = id.chars().map(allowed_or_underscore).collect();
     id.truncate(id.floor_char_boundary(MAX_ID_BYTES));
     format!("{number}{segment}-{id}.proof")
 }
 
-/// The certificates of a run over the rows of a table.
-pub(crate) trait RunCertificates {
-    /// Writes the meshes that the proofs are about.
-    fn begin(&self) -> Result<()>;
-
-    /// Requires that an earlier run has written the meshes, which this run continues.
-    fn resume(&self) -> Result<()>;
-}
-
-impl RunCertificates for PairCertificates {
-    fn begin(&self) -> Result<()> {
-        self.folder.write_bodies(self.named_bodies())
-    }
-
-    fn resume(&self) -> Result<()> {
-        self.folder.require_bodies(self.named_bodies())
-    }
-}
-
-impl RunCertificates for CellCertificates<'_> {
-    fn begin(&self) -> Result<()> {
-        self.folder.write_bodies(self.named_bodies())
-    }
-
-    fn resume(&self) -> Result<()> {
-        self.folder.require_bodies(self.named_bodies())
-    }
-}
-
-impl<C: RunCertificates> RunCertificates for Option<C> {
-    fn begin(&self) -> Result<()> {
-        self.as_ref().map_or(Ok(()), C::begin)
-    }
-
-    fn resume(&self) -> Result<()> {
-        self.as_ref().map_or(Ok(()), C::resume)
-    }
-}
-
-/// Begins or resumes certificates, as a run has begun or continues.
-pub(crate) fn begin_or_resume(
-    certificates: &impl RunCertificates,
-    earlier: Option<Checkpoint>,
-) -> Result<()> {
-    match earlier {
-        Some(earlier) if earlier.counts.row_count() > 0 => certificates.resume(),
-        _ => certificates.begin(),
-    }
-}
-
-/// Two bodies as proofs take them, and the folder for these.
+/// Two bodies in the form for proofs, and the folder of their proofs.
 pub(crate) struct PairCertificates {
     pub(crate) folder: CertificateFolder,
     bodies: ProvenPair,
@@ -187,12 +148,13 @@ impl PairCertificates {
         })
     }
 
-    fn named_bodies(&self) -> impl Iterator<Item = (String, &Body)> {
+    /// Writes both meshes, or requires the meshes of the earlier run that this run continues.
+    pub(crate) fn begin_or_resume(&self, earlier: Option<Checkpoint>) -> Result<()> {
         let names = ["a", "b"].map(str::to_owned).into_iter();
-        names.zip(self.bodies.meshes())
+        (self.folder).begin_or_resume(names.zip(self.bodies.meshes()), earlier)
     }
 
-    /// Proves an answer to a question about the first contact, or about any; `None` if there is nothing to prove.
+    /// Proves an answer to a question about the first contact or about any contact; `None` if there is nothing to prove.
     pub(crate) fn prove(
         &self,
         motions: &Motions,
@@ -209,7 +171,7 @@ impl PairCertificates {
     }
 }
 
-/// The bodies of a cell as proofs take them, and the folder for these.
+/// The bodies of a cell in the form for proofs, and the folder of their proofs.
 pub(crate) struct CellCertificates<'c> {
     pub(crate) folder: CertificateFolder,
     cell: ProvenCell<'c>,
@@ -227,27 +189,29 @@ impl<'c> CellCertificates<'c> {
         })
     }
 
-    fn named_bodies(&self) -> impl Iterator<Item = (String, &Body)> {
+    /// Writes all meshes, or requires the meshes of the earlier run that this run continues.
+    pub(crate) fn begin_or_resume(&self, earlier: Option<Checkpoint>) -> Result<()> {
         let bodies = self.cell.meshes().enumerate();
-        bodies.map(|(number, body)| (format!("body{number}"), body))
+        let named = bodies.map(|(number, body)| (format!("body{number}"), body));
+        self.folder.begin_or_resume(named, earlier)
     }
 
     /// Proves that each segment of a path is free until the first contact, and that contact. Returns each proof with the number
     /// of its segment if there are several. A path of one configuration is a segment at rest.
     ///
     /// # Errors
-    /// Why a segment cannot be proven.
+    /// The reason why a segment cannot be proven.
     pub(crate) fn prove(
         &self,
         solver: &mut CellSolver<'_>,
         path: &[Vec<f64>],
     ) -> Result<Vec<(Option<usize>, Proof)>> {
         let answer = solver.first_contact(path)?;
-        let at_rest;
+        let resting_segment;
         let segments = match path {
             [only] => {
-                at_rest = [only.clone(), only.clone()];
-                &at_rest
+                resting_segment = [only.clone(), only.clone()];
+                &resting_segment
             }
             _ => path,
         };
@@ -259,34 +223,4 @@ impl<'c> CellCertificates<'c> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::proof_file_name;
-    use std::collections::BTreeSet;
-
-    /// Ids that are alike once they are cleaned or cut, equal ids, and those of segments of another row.
-    #[test]
-    fn no_two_proofs_have_one_name() {
-        let long = "é".repeat(400);
-        let ids = [
-            "a/b", "a_b", "a_b", "", "p", "p-1", "1", "0-p", ".", "..", "a\nb", &long,
-        ];
-        let mut names = BTreeSet::new();
-        for row in 0..30 {
-            for id in ids {
-                for segment in [None, Some(0), Some(1), Some(11)] {
-                    let name = proof_file_name((row, segment), id);
-                    assert!(name.len() < 200 && !name.contains(['/', '\n']), "{name}");
-                    let own = (row, segment);
-                    let other = names
-                        .iter()
-                        .find(|(of, known)| *known == name && *of != own);
-                    assert_eq!(other, None);
-                    names.insert((own, name));
-                }
-            }
-        }
-        assert_eq!(proof_file_name((3, None), "a/b"), "3-a_b.proof");
-        assert_eq!(proof_file_name((3, Some(2)), "p"), "3.2-p.proof");
-        assert_eq!(proof_file_name((3, None), "3"), "3.proof");
-    }
-}
+mod tests;

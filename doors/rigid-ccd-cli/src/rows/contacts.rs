@@ -3,9 +3,10 @@
 #[cfg(test)]
 mod tests;
 
-use ccd_core::{Answer, Contact, ContactsError, InputError, Outcome, Settings};
+use anyhow::{Result, anyhow};
+use ccd_core::{Answer, Contact, Outcome, Settings};
 use ccd_tables::batch::BodyPair;
-use ccd_tables::courses::Movements;
+use ccd_tables::movements::Movements;
 use ccd_tables::results::{Column, ResultRow, reordered_columns};
 use rigid_ccd::Question;
 
@@ -17,34 +18,29 @@ pub(crate) fn columns() -> Vec<Column> {
     )
 }
 
-/// The reason why the contacts at an answer's time cannot be listed.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub(crate) enum ContactListError {
-    /// The query is not valid.
-    #[error("{0}")]
-    InvalidQuery(#[from] InputError),
-    /// The contacts cannot be listed.
-    #[error("{0}; raise --budget, or reduce --tolerance")]
-    ContactsNotListable(#[from] ContactsError),
-}
-
 /// Lists all pairs of features in contact at the time of an answer's contact, nearest first; empty for other answers.
 ///
 /// # Errors
 /// The query is not valid, or the contacts cannot be listed.
 pub(crate) fn contact_rows(
     bodies: BodyPair<'_>,
-    course: &Movements,
+    movements: &Movements,
     settings: &Settings,
     (question, answer): (Question, &Answer),
-) -> Result<Vec<ResultRow>, ContactListError> {
+) -> Result<Vec<ResultRow>> {
     let Some(time) = time_of_contact(question, &answer.outcome) else {
         return Ok(Vec::new());
     };
-    let query = bodies.build_query(question, course, settings)?;
-    let pairs = query.contacts_at(time)?;
+    let query = bodies.build_query(question, movements, settings)?;
+    let pairs = query
+        .contacts_at(time)
+        .map_err(|error| anyhow!("{error}; raise --budget, or reduce --tolerance"))?;
     let row = |pair: &Contact| {
-        ResultRow::from_feature_pair(course.id(), course.table_time_rounded_down(time), pair)
+        ResultRow::from_feature_pair(
+            movements.id(),
+            movements.table_time_rounded_down(time),
+            pair,
+        )
     };
     Ok(pairs.iter().map(row).collect())
 }

@@ -21,8 +21,8 @@ impl StatusCounts {
 
     /// Returns the statuses with at least one row, each with its number of rows.
     pub(crate) fn nonzero_counts(&self) -> impl Iterator<Item = (Status, usize)> {
-        let all = Status::ALL.into_iter().zip(self.0);
-        all.filter(|&(_, count)| count > 0)
+        let counts = Status::ALL.into_iter().zip(self.0);
+        counts.filter(|&(_, count)| count > 0)
     }
 }
 
@@ -33,8 +33,8 @@ impl fmt::Display for StatusCounts {
         let plural = if rows == 1 { "" } else { "s" };
         write!(f, "{rows} row{plural}")?;
         for (k, (status, count)) in self.nonzero_counts().enumerate() {
-            let before = if k == 0 { ": " } else { ", " };
-            write!(f, "{before}{count} {}", status.name())?;
+            let separator = if k == 0 { ": " } else { ", " };
+            write!(f, "{separator}{count} {}", status.name())?;
         }
         Ok(())
     }

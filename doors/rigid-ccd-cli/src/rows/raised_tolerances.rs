@@ -1,30 +1,30 @@
-//! Answers whose tolerance is larger than the given one, because of rounding.
+//! Counts answers whose tolerance is larger than the requested one, because of rounding.
 
 use ccd_core::order::greater;
 use std::fmt;
 
-/// Counts the answers whose tolerance is larger than the given one.
+/// A count of the answers whose tolerance is larger than the requested one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct RaisedTolerances {
-    /// The tolerance given for the queries, in the scene's unit of length.
-    given: f64,
+    /// The tolerance of `--tolerance`, in the scene's unit of length.
+    requested: f64,
     pub(crate) count: usize,
     /// The largest tolerance of any answer, in the scene's unit of length.
     pub(crate) largest: f64,
 }
 
 impl RaisedTolerances {
-    pub(crate) fn new(given: f64) -> Self {
+    pub(crate) fn new(requested: f64) -> Self {
         RaisedTolerances {
-            given,
+            requested,
             count: 0,
-            largest: given,
+            largest: requested,
         }
     }
 
     /// Adds the tolerance that an answer meets.
     pub(crate) fn add(&mut self, tolerance: f64) {
-        self.count += usize::from(tolerance > self.given);
+        self.count += usize::from(tolerance > self.requested);
         self.largest = greater(self.largest, tolerance);
     }
 }
@@ -38,7 +38,7 @@ impl fmt::Display for RaisedTolerances {
         write!(
             f,
             "\n--tolerance {:e} cannot be certified at these coordinates: raised for {} rows, to at most {:.2e}",
-            self.given, self.count, self.largest
+            self.requested, self.count, self.largest
         )
     }
 }

@@ -43,10 +43,10 @@ impl TimeHistogram {
 
     /// Returns the time at an index in ascending order of times.
     fn time_at_rank(&self, index: u64) -> f64 {
-        let mut passed = 0;
+        let mut count_so_far = 0;
         for (&bits, &count) in &self.counts {
-            passed += count;
-            if passed > index {
+            count_so_far += count;
+            if count_so_far > index {
                 return f64::from_bits(bits << DROPPED_LOW_BIT_COUNT);
             }
         }

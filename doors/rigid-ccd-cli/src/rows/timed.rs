@@ -3,8 +3,8 @@
 use crate::options::solver_kind::{Solve, SolverKind};
 use ccd_core::Settings;
 use ccd_tables::batch::{BodyPair, TimedAnswer, median};
-use ccd_tables::courses::Movements;
 use ccd_tables::motions::RowProblem;
+use ccd_tables::movements::Movements;
 use rigid_ccd::Question;
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
@@ -22,7 +22,7 @@ pub(crate) struct TimedQuestion {
     pub(crate) repetitions: NonZeroUsize,
 }
 
-/// Answers a query as often as `timing` says, and returns the answer with the median time.
+/// Answers a query as often as `timed_question` says, and returns the answer with the median time.
 ///
 /// On one thread, only the query runs between two readings of the clock. On all cores, queries share
 /// caches and memory, and each may take longer.
@@ -31,18 +31,19 @@ pub(crate) struct TimedQuestion {
 /// The query is not valid, or the method does not answer the question.
 pub(crate) fn answer_timed(
     bodies: BodyPair<'_>,
-    course: &Movements,
-    timing: &TimedQuestion,
+    movements: &Movements,
+    timed_question: &TimedQuestion,
     solver: &mut dyn Solve,
 ) -> Result<TimedAnswer, RowProblem> {
-    let mut micros = Vec::with_capacity(timing.repetitions.get());
+    let mut micros = Vec::with_capacity(timed_question.repetitions.get());
     loop {
         let start = Instant::now();
-        let query = bodies.build_query(timing.question, course, &timing.settings)?;
-        let answer = solver.answer(timing.question, &query);
+        let query =
+            bodies.build_query(timed_question.question, movements, &timed_question.settings)?;
+        let answer = solver.answer(timed_question.question, &query);
         let answer = answer.ok_or(RowProblem::NeedsBestFirst)??;
         micros.push(microseconds(start.elapsed()));
-        if micros.len() == timing.repetitions.get() {
+        if micros.len() == timed_question.repetitions.get() {
             let micros = median(&mut micros);
             return Ok(TimedAnswer { answer, micros });
         }

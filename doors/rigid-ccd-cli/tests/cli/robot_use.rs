@@ -153,7 +153,7 @@ fn files_of_another_kind_are_named() {
     let edges = call(&scene, &["edges", "cell.toml", "--edges", "moves.csv"]);
     assert_contains(
         &edges.run_for_messages(2),
-        "ROBOT is a URDF or MJCF file; --cell takes what is around it",
+        "ROBOT is a URDF or MJCF file; --cell takes its surroundings",
     );
     for (file, expected) in [
         ("nix", "nix: no such file or folder"),

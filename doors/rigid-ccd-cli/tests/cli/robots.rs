@@ -337,7 +337,7 @@ fn a_page_shows_the_robot() {
         .run_expecting_code(0);
     let page = fs::read_to_string(scene.directory.join("clearance.html")).unwrap();
     assert_contains(&page, "5 mm required: kept");
-    assert_contains(&page, "\"required\":5.0,\"unkept\":[]");
+    assert_contains(&page, "\"required\":5.0,\"failing_ranges\":[]");
     let message = call(&scene, &["view", "arm.urdf", "--joint", "knee=1"]).run_for_messages(2);
     assert_contains(&message, "--joint knee");
 }
@@ -557,7 +557,7 @@ fn a_page_of_a_robot_leaves_out_bad_rows() {
         .args(&["--ids", "bad,none"])
         .run_for_messages(2);
     assert_contains(&message, "no path to show has the id \"none\"");
-    assert_contains(&message, "there is no row to show, and no page");
+    assert_contains(&message, "there is no row to show, so no page is written");
     assert!(!scene.directory.join("view.html").exists());
 }
 

@@ -178,7 +178,7 @@ fn results_are_shown_as_they_are() {
         .args(&wrong)
         .folder(&scene.directory)
         .run_for_messages(2);
-    assert_contains(&message, "not those of results");
+    assert_contains(&message, "not the columns of results");
 }
 
 #[test]
@@ -263,7 +263,7 @@ fn a_verdict_matches_the_question_and_the_proof() {
         (
             &["--start", "leave"],
             "Contact at ",
-            "but for a contact at the start that was let go.",
+            "except for a contact at the start, which was ignored until the bodies parted.",
         ),
         (
             &["--margin", "0.3"],

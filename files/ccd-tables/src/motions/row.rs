@@ -14,7 +14,7 @@ use std::ops::Range;
 /// Parses a row of a table of motions; `index` is the default id.
 ///
 /// # Errors
-/// What is wrong with the row.
+/// The problem of the row.
 pub fn parse_row<R: Record>(
     columns: &Columns,
     record: &R,
@@ -48,7 +48,7 @@ pub fn parse_row<R: Record>(
 pub struct BodyRow {
     /// The id of the row; its index by default.
     pub id: String,
-    /// The description of the body in the column `body_row`.
+    /// The description of the body in the column `body`.
     pub body_text: String,
     /// The motion of the body, from time 0.
     pub motion: Motion,
@@ -100,9 +100,10 @@ pub(crate) fn poses<R: Record>(
         return Err(RowProblem::NoId);
     }
     Ok(TimedBodyPoses {
-        time: row
-            .number(TIME_COLUMN_INDEX)?
-            .ok_or_else(|| row.empty_cell_problem(TIME_COLUMN_INDEX))?,
+        time: row.number(TIME_COLUMN_INDEX)?.ok_or_else(|| {
+            let column = columns.name(TIME_COLUMN_INDEX).to_owned();
+            RowProblem::EmptyCell { column }
+        })?,
         a: row.body_pose(Side::A)?,
         b: row.body_pose(Side::B)?,
     })
@@ -191,23 +192,23 @@ impl<'a, R: Record> Row<'a, R> {
         }
     }
 
-    /// Returns the first column, among those of two quantities, whose cell satisfies `wanted`; `None` without one.
+    /// Returns the first column of two quantities whose cell satisfies a condition; `None` without one.
     fn column_where(
         &self,
         side: Side,
         quantities: [Quantity; 2],
-        wanted: impl Fn(usize) -> bool,
+        condition: impl Fn(usize) -> bool,
     ) -> Option<usize> {
         let slots = quantities.into_iter();
         let mut slots = slots.flat_map(|quantity| self.columns.known_column_range(side, quantity));
-        slots.find(|&slot| self.columns.index(slot).is_some_and(&wanted))
+        slots.find(|&slot| self.columns.index(slot).is_some_and(&condition))
     }
 
     /// Returns a vector of a body, with 0 for missing columns; `None` if all of its columns are missing.
     fn vector(&self, side: Side, quantity: Quantity) -> Result<Option<DVec3>, RowProblem> {
-        let parts = self.numbers::<3>(self.columns.known_column_range(side, quantity))?;
-        let given = parts.iter().any(Option::is_some);
-        Ok(given.then(|| DVec3::from(parts.map(Option::unwrap_or_default))))
+        let components = self.numbers::<3>(self.columns.known_column_range(side, quantity))?;
+        let is_given = components.iter().any(Option::is_some);
+        Ok(is_given.then(|| DVec3::from(components.map(Option::unwrap_or_default))))
     }
 
     fn vector_or_zero(&self, side: Side, quantity: Quantity) -> Result<DVec3, RowProblem> {
@@ -254,18 +255,7 @@ impl<'a, R: Record> Row<'a, R> {
         let Some(cell) = self.columns.index(slot) else {
             return Ok(None);
         };
-        match self.record.number(cell) {
-            Ok(Some(number)) => Ok(Some(number)),
-            Ok(None) => Err(self.empty_cell_problem(slot)),
-            Err(value) => Err(RowProblem::NotANumber {
-                column: self.columns.name(slot).to_owned(),
-                value,
-            }),
-        }
-    }
-
-    fn empty_cell_problem(&self, slot: usize) -> RowProblem {
-        let column = self.columns.name(slot).to_owned();
-        RowProblem::EmptyCell { column }
+        let column = self.columns.name(slot);
+        self.record.required_number(cell, column).map(Some)
     }
 }

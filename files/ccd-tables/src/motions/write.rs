@@ -11,7 +11,7 @@ use std::io;
 ///
 /// # Errors
 /// `output` cannot be written to.
-pub fn write(output: impl io::Write, queries: &[Motions]) -> Result<(), csv::Error> {
+pub fn write(output: impl io::Write, rows_to_write: &[Motions]) -> Result<(), csv::Error> {
     let names = TableKind::Motions.names();
     let defaults = cells(&Motions {
         id: String::new(),
@@ -19,37 +19,37 @@ pub fn write(output: impl io::Write, queries: &[Motions]) -> Result<(), csv::Err
         b: Motion::still(ccd_core::Pose::IDENTITY),
         duration: 1.0,
     });
-    let rows: Vec<Vec<String>> = queries.iter().map(cells).collect();
+    let rows: Vec<Vec<String>> = rows_to_write.iter().map(cells).collect();
     // The parts of an orientation are kept or omitted together.
     let differs = |slot: usize| rows.iter().any(|row| row[slot] != defaults[slot]);
     let orientation = |side| TableKind::Motions.known_column_range(side, Quantity::Orientation);
-    let kept: Vec<usize> = (0..names.len())
+    let kept_slots: Vec<usize> = (0..names.len())
         .filter(|&slot| {
-            let whole = [Side::A, Side::B]
+            let orientation_slots = [Side::A, Side::B]
                 .map(orientation)
                 .into_iter()
                 .find(|range| range.contains(&slot));
             slot == ID_COLUMN_INDEX
-                || whole.map_or_else(|| differs(slot), |mut range| range.any(differs))
+                || orientation_slots.map_or_else(|| differs(slot), |mut range| range.any(differs))
         })
         .collect();
     let mut writer = csv::Writer::from_writer(output);
-    writer.write_record(kept.iter().map(|&slot| &names[slot]))?;
+    writer.write_record(kept_slots.iter().map(|&slot| &names[slot]))?;
     for row in &rows {
-        writer.write_record(kept.iter().map(|&slot| &row[slot]))?;
+        writer.write_record(kept_slots.iter().map(|&slot| &row[slot]))?;
     }
     writer.flush()?;
     Ok(())
 }
 
 /// Returns the text of a query's cell in every known column.
-fn cells(query: &Motions) -> Vec<String> {
+fn cells(motions: &Motions) -> Vec<String> {
     let mut cells = vec![String::new(); TableKind::Motions.names().len()];
-    cells[ID_COLUMN_INDEX].clone_from(&query.id);
-    cells[DURATION_COLUMN_INDEX] = query.duration.to_string();
-    for (side, motion) in [(Side::A, &query.a), (Side::B, &query.b)] {
+    cells[ID_COLUMN_INDEX].clone_from(&motions.id);
+    cells[DURATION_COLUMN_INDEX] = motions.duration.to_string();
+    for (side, motion) in [(Side::A, &motions.a), (Side::B, &motions.b)] {
         let rotation = motion.start().rotation();
-        let mut put = |quantity, values: &[f64]| {
+        let mut set_cells = |quantity, values: &[f64]| {
             for (slot, value) in TableKind::Motions
                 .known_column_range(side, quantity)
                 .zip(values)
@@ -57,15 +57,15 @@ fn cells(query: &Motions) -> Vec<String> {
                 cells[slot] = value.to_string();
             }
         };
-        put(Quantity::Position, &motion.start().translation().to_array());
+        set_cells(Quantity::Position, &motion.start().translation().to_array());
         let wxyz = [rotation.w, rotation.x, rotation.y, rotation.z];
-        put(Quantity::Orientation, &wxyz);
-        put(Quantity::Velocity, &motion.velocity().to_array());
-        put(
+        set_cells(Quantity::Orientation, &wxyz);
+        set_cells(Quantity::Velocity, &motion.velocity().to_array());
+        set_cells(
             Quantity::AngularVelocity,
             &motion.angular_velocity().to_array(),
         );
-        put(Quantity::Center, &motion.center().to_array());
+        set_cells(Quantity::Center, &motion.center().to_array());
     }
     cells
 }

@@ -21,7 +21,7 @@ impl CellKind {
     /// Returns the kind of a column.
     ///
     /// # Errors
-    /// What the column holds, in words, if that is no number, text or boolean.
+    /// The type of the column as text, if its values are no numbers, texts or booleans.
     pub(super) fn of(column: &ColumnDescriptor) -> Result<Self, String> {
         if column.path().parts().len() != 1 || column.max_rep_level() > 0 {
             return Err("lists or structs".to_owned());

@@ -2,7 +2,7 @@
 
 use super::cell_kind::CellKind;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
-use parquet::data_type::{ByteArray, DataType};
+use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use std::io::Write;
 
@@ -10,7 +10,7 @@ use std::io::Write;
 pub(super) struct ColumnTexts {
     reader: ColumnReader,
     kind: CellKind,
-    /// The level of a value that is present: 0 in a column where all are.
+    /// The level of a value that is present; 0 in a column without absent values.
     present_level: i16,
     texts: Texts,
 }
@@ -34,7 +34,7 @@ impl ColumnTexts {
         }
     }
 
-    /// Decodes the next `count` cells in place of those before.
+    /// Decodes the next `count` cells, in place of the cells decoded before.
     ///
     /// # Errors
     /// The column has fewer cells, or cannot be decoded.
@@ -58,7 +58,7 @@ impl ColumnTexts {
                     CellKind::Decimal { scale } => write_decimal(out, value.into(), scale),
                 })
             }
-            // A number of 32 bits is itself, not the shorter decimal number that rounds to it.
+            // A 32-bit number keeps its exact value; the shortest decimal number that rounds to it may differ.
             ColumnReader::FloatColumnReader(reader) => {
                 texts.fill(reader, (count, level), |&value, out| {
                     write!(out, "{:?}", f64::from(value))
@@ -71,12 +71,12 @@ impl ColumnTexts {
             }
             ColumnReader::ByteArrayColumnReader(reader) => {
                 texts.fill(reader, (count, level), |value, out| {
-                    write_bytes(out, value, kind)
+                    write_bytes(out, value.data(), kind)
                 })
             }
             ColumnReader::FixedLenByteArrayColumnReader(reader) => {
                 texts.fill(reader, (count, level), |value, out| {
-                    write_bytes(out, value, kind)
+                    write_bytes(out, value.data(), kind)
                 })
             }
             ColumnReader::Int96ColumnReader(_) => {
@@ -104,10 +104,10 @@ impl Texts {
         self.bytes.clear();
         self.ends.clear();
         let (mut levels, mut values) = (Vec::new(), Vec::new());
-        let (read, ..) = reader.read_records(count, Some(&mut levels), None, &mut values)?;
+        let (read_count, ..) = reader.read_records(count, Some(&mut levels), None, &mut values)?;
         // Columns without absent values have no levels.
         if present_level == 0 {
-            levels = vec![0; read];
+            levels = vec![0; read_count];
         }
         let mut values = values.iter();
         for &level in &levels {
@@ -129,13 +129,12 @@ fn missing_values() -> ParquetError {
     ParquetError::EOF("the number of values is not the number of rows".to_owned())
 }
 
-/// The length of the longest text of a cell. A dictionary holds a text once for many rows, each of which gets its own: a small file
-/// could take all memory.
+/// The greatest length in bytes of a cell's text. A dictionary stores a text once for many rows, and each row gets a copy:
+/// without a limit, a small file could fill the memory.
 const MAX_TEXT_BYTES: usize = 1 << 16;
 
 /// Writes text, or the decimal number that big-endian bytes hold.
-fn write_bytes(out: &mut Vec<u8>, value: &impl AsBytes, kind: CellKind) -> std::io::Result<()> {
-    let bytes = value.bytes();
+fn write_bytes(out: &mut Vec<u8>, bytes: &[u8], kind: CellKind) -> std::io::Result<()> {
     let CellKind::Decimal { scale } = kind else {
         if bytes.len() > MAX_TEXT_BYTES {
             let problem = format!(
@@ -146,12 +145,12 @@ fn write_bytes(out: &mut Vec<u8>, value: &impl AsBytes, kind: CellKind) -> std::
         }
         return out.write_all(bytes);
     };
-    let mut wide = [if is_negative(bytes) { 0xff } else { 0 }; 16];
-    let Some(free) = wide.len().checked_sub(bytes.len()) else {
+    let mut padded_bytes = [if is_negative(bytes) { 0xff } else { 0 }; 16];
+    let Some(padding_length) = padded_bytes.len().checked_sub(bytes.len()) else {
         return Err(std::io::Error::other("a decimal of more than 128 bits"));
     };
-    wide[free..].copy_from_slice(bytes);
-    write_decimal(out, i128::from_be_bytes(wide), scale)
+    padded_bytes[padding_length..].copy_from_slice(bytes);
+    write_decimal(out, i128::from_be_bytes(padded_bytes), scale)
 }
 
 fn is_negative(big_endian: &[u8]) -> bool {
@@ -167,22 +166,5 @@ fn write_decimal(out: &mut Vec<u8>, units: i128, scale: u32) -> std::io::Result<
     match decimals {
         "" => write!(out, "{sign}{whole}"),
         _ => write!(out, "{sign}{whole}.{decimals}"),
-    }
-}
-
-/// Bytes of variable or of fixed length.
-trait AsBytes {
-    fn bytes(&self) -> &[u8];
-}
-
-impl AsBytes for ByteArray {
-    fn bytes(&self) -> &[u8] {
-        self.data()
-    }
-}
-
-impl AsBytes for parquet::data_type::FixedLenByteArray {
-    fn bytes(&self) -> &[u8] {
-        self.data()
     }
 }

@@ -12,7 +12,8 @@ thread_local! {
     static IS_GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Calls the Parquet library, and returns an error if it panics. What it was called on must not be used afterwards.
+/// Calls the Parquet library, and returns an error if it panics. After a panic, the objects that `call` uses must not
+/// be used again.
 pub(super) fn guarded<T>(
     call: impl FnOnce() -> Result<T, ParquetError>,
 ) -> Result<T, ParquetError> {

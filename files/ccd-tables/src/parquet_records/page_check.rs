@@ -12,17 +12,10 @@ use parquet::schema::types::ColumnDescriptor;
 pub(super) struct CheckedPages {
     pages: Box<dyn PageReader>,
     /// Whether values may be absent, so that levels are stored before the values.
-    levels: Levels,
+    has_levels: bool,
     /// The number of rows of the row group.
     row_count: u64,
     has_dictionary: bool,
-}
-
-/// The levels before the values of a page.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Levels {
-    Absent,
-    Stored,
 }
 
 impl CheckedPages {
@@ -32,13 +25,9 @@ impl CheckedPages {
         column: &ColumnDescriptor,
         row_count: u64,
     ) -> Self {
-        let levels = match column.max_def_level() {
-            0 => Levels::Absent,
-            _ => Levels::Stored,
-        };
         CheckedPages {
             pages,
-            levels,
+            has_levels: column.max_def_level() > 0,
             row_count,
             has_dictionary: false,
         }
@@ -49,9 +38,9 @@ impl CheckedPages {
         if let Page::DictionaryPage { buf, .. } = page {
             self.has_dictionary = true;
             // Each value takes one byte at least.
-            return refuse_more_values(count, buf.len() as u64);
+            return refuse_too_many_values(count, buf.len() as u64);
         }
-        refuse_more_values(count, self.row_count)?;
+        refuse_too_many_values(count, self.row_count)?;
         match page.encoding() {
             Encoding::RLE_DICTIONARY | Encoding::PLAIN_DICTIONARY if !self.has_dictionary => {
                 Err(damaged("a page needs a dictionary, and there is none"))
@@ -59,7 +48,7 @@ impl CheckedPages {
             Encoding::DELTA_LENGTH_BYTE_ARRAY => {
                 let values = self.values(page).ok_or_else(|| damaged("a page is cut"))?;
                 let claimed = delta_value_count(values).ok_or_else(|| damaged("a page is cut"))?;
-                refuse_more_values(claimed, count)
+                refuse_too_many_values(claimed, count)
             }
             // The number of its suffixes cannot be known before its prefixes are decoded.
             Encoding::DELTA_BYTE_ARRAY => Err(ParquetError::NYI(
@@ -78,7 +67,7 @@ impl CheckedPages {
                 rep_levels_byte_len,
                 ..
             } => u64::from(*def_levels_byte_len) + u64::from(*rep_levels_byte_len),
-            _ if self.levels == Levels::Absent => 0,
+            _ if !self.has_levels => 0,
             _ => {
                 let length = page.buffer().first_chunk::<4>()?;
                 4 + u64::from(u32::from_le_bytes(*length))
@@ -135,10 +124,10 @@ fn delta_value_count(bytes: &[u8]) -> Option<u64> {
     (next_number()?, next_number()?, next_number()?).2.into()
 }
 
-fn refuse_more_values(claimed: u64, most: u64) -> Result<(), ParquetError> {
-    if claimed > most {
+fn refuse_too_many_values(claimed: u64, max_count: u64) -> Result<(), ParquetError> {
+    if claimed > max_count {
         return Err(damaged(&format!(
-            "a page claims {claimed} values, and can have {most}"
+            "a page claims {claimed} values, and can have {max_count}"
         )));
     }
     Ok(())

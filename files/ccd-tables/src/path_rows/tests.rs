@@ -6,6 +6,13 @@ use rigid_ccd::{Body, Pose, Settings, trajectory};
 use rigid_ccd_robot::{Cell, Joint, Link, LinkPairs, PositionRule, Robot};
 use std::time::Duration;
 
+fn without_clearance(question: Question) -> PathQuestion {
+    PathQuestion {
+        question,
+        clearance: None,
+    }
+}
+
 /// Returns a cell of an arm of two rods among some balls. Both joints turn about z.
 fn random_cell(random: &mut Pcg64) -> Cell {
     let rod = || Body::cuboid([0.4, 0.1, 0.1]).unwrap();
@@ -51,10 +58,10 @@ fn rows_are_the_answers_of_the_solver() {
         let cell = random_cell(&mut random);
         let path = [(); 3].map(|()| random_configuration(&mut random));
         let mut solver = cell.solver();
-        let is_free = PathQuestion::from(Question::AnyContact)
+        let is_free = without_clearance(Question::AnyContact)
             .answer(&mut solver, &path)
             .row;
-        let first = PathQuestion::from(Question::FirstContact)
+        let first = without_clearance(Question::FirstContact)
             .answer(&mut solver, &path)
             .row;
         assert_eq!(is_free.status == Status::Free, first.status == Status::Free);
@@ -78,7 +85,7 @@ fn rows_are_the_answers_of_the_solver() {
         }
         statuses[usize::from(first.status == Status::Free)] += 1;
 
-        let nearest = PathQuestion::from(Question::ClosestApproach)
+        let nearest = without_clearance(Question::ClosestApproach)
             .answer(&mut solver, &path)
             .row;
         assert_eq!(nearest.status, Status::Measured);
@@ -109,7 +116,7 @@ fn limits_and_errors_are_rows() {
     };
     let mut solver = cell.solver().with_settings(settings);
     for question in CellSolver::QUESTIONS {
-        let asked = PathQuestion::from(question);
+        let asked = without_clearance(question);
         let row = asked.answer(&mut solver, &path).row;
         assert_eq!(row.status, Status::Unresolved, "{question}");
         assert_eq!(row.reason.as_deref(), Some("deadline"));
@@ -139,7 +146,7 @@ fn other_questions_are_refused() {
     let cell = random_cell(&mut random);
     let path = [random_configuration(&mut random)];
     for question in Question::ALL {
-        let row = PathQuestion::from(question)
+        let row = without_clearance(question)
             .answer(&mut cell.solver(), &path)
             .row;
         let is_known = CellSolver::QUESTIONS.contains(&question);

@@ -1,8 +1,8 @@
 use super::*;
-use crate::courses::{CourseRow, MovementRows, Movements};
+use crate::movements::{MovementRow, MovementRows, Movements};
 use ccd_core::glam::DVec3;
 
-fn rows(text: &str, grouping: Grouping) -> Vec<CourseRow> {
+fn rows(text: &str, grouping: Grouping) -> Vec<MovementRow> {
     let rows = MovementRows::new(text.as_bytes(), grouping).expect("a header that can be used");
     assert!(rows.is_path_table());
     rows.map(|row| row.expect("a table that can be read"))
@@ -163,7 +163,7 @@ fn a_path_has_a_center_of_rotation() {
     let (row, message) = only_problem("t,a_cx\n0,1\n1,1\n2,1.5\n");
     assert_eq!(row, 2);
     assert!(
-        message.starts_with("columns a_cx a_cy a_cz: not those"),
+        message.starts_with("columns a_cx a_cy a_cz: differ"),
         "{message}"
     );
 }
@@ -195,7 +195,8 @@ fn angular_velocities_give_whole_turns_to_the_next_row() {
     }
     let (row, message) = only_problem(&table(spin + 0.8));
     assert_eq!(row, 1);
-    let expected = "columns a_wx a_wy a_wz: those of the row before lead 1.600 radians away";
+    let expected =
+        "columns a_wx a_wy a_wz: the angular velocity of the row before leads 1.600 radians away";
     assert!(message.starts_with(expected), "{message}");
 }
 

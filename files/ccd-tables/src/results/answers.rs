@@ -1,21 +1,21 @@
-//! The answers to each question: what is asked, which statuses its rows may have, and which columns.
+//! The questions, with the statuses and the columns of their answers.
 
 use super::columns::{Column, LAST_TIME_COLUMN};
 use super::status::Status;
 use ccd_core::Question;
 
-/// The answers that a question may have. The help of the command and the test of its documentation are made of it.
+/// The answers that a question may have. The help of the command is generated from it.
 #[derive(Clone, Copy, Debug)]
 pub struct QuestionAnswers {
     /// The question.
     pub question: Question,
-    /// The question in words.
+    /// The question as a sentence.
     pub words: &'static str,
-    /// The statuses of answers without a clearance, beside [`Status::Unresolved`].
+    /// The statuses of answers without a clearance, except [`Status::Unresolved`].
     pub statuses: &'static [Status],
     /// The statuses of answers that are compared with a clearance; none if the question takes no clearance.
     pub compared_statuses: &'static [Status],
-    /// The columns that follow those of all tables of results.
+    /// The columns that follow the columns of all tables of results.
     pub more_columns: &'static [Column],
 }
 
@@ -30,7 +30,7 @@ pub const ANSWERS: [QuestionAnswers; 5] = [
     },
     QuestionAnswers {
         question: Question::AnyContact,
-        words: "Do they touch at all? The time is that of any contact",
+        words: "Do they touch at all? The time may belong to any contact",
         statuses: &[Status::Contact, Status::Free, Status::Overlapping],
         compared_statuses: &[],
         more_columns: &[],
@@ -38,7 +38,7 @@ pub const ANSWERS: [QuestionAnswers; 5] = [
     QuestionAnswers {
         question: Question::ContactInterval,
         words: "When do they first touch, and when last?",
-        // The status is that of the first contact; any but `free` has a last one.
+        // The status describes the first contact. Every status except `free` comes with a last contact.
         statuses: KINDS_OF_CONTACT,
         compared_statuses: &[],
         more_columns: &[LAST_TIME_COLUMN],

@@ -72,10 +72,14 @@ pub const ITEM_COLUMNS: [Column; 2] = [
 
 /// Returns the columns of results in another order: the columns `first`, then all others that are not `left_out`.
 pub fn reordered_columns(first: &[&str], left_out: &[&str]) -> Vec<Column> {
-    let named = |name: &&str| COLUMNS.into_iter().find(|column| column.0 == *name);
+    let column_named = |name: &&str| COLUMNS.into_iter().find(|column| column.0 == *name);
     let is_other = |Column(name, _): &Column| !first.contains(name) && !left_out.contains(name);
     let others = COLUMNS.into_iter().filter(is_other);
-    first.iter().filter_map(named).chain(others).collect()
+    first
+        .iter()
+        .filter_map(column_named)
+        .chain(others)
+        .collect()
 }
 
 /// Returns the header names of columns.
@@ -92,9 +96,9 @@ impl Serialize for Line<'_> {
         let mut line = serializer.serialize_tuple(columns.len())?;
         for Column(_, cells) in *columns {
             match cells {
-                Text(of) => line.serialize_element(&of(row))?,
-                Number(of) => line.serialize_element(&of(row))?,
-                Count(of) => line.serialize_element(&of(row))?,
+                Text(cell_of) => line.serialize_element(&cell_of(row))?,
+                Number(cell_of) => line.serialize_element(&cell_of(row))?,
+                Count(cell_of) => line.serialize_element(&cell_of(row))?,
             }
         }
         line.end()

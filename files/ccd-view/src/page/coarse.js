@@ -1,4 +1,4 @@
-// Meshes of fewer triangles for what is hardly seen: vertices in one cell of a grid become one.
+// Simplifies meshes for translucent ghosts: all vertices in one cell of a grid become one vertex.
 "use strict";
 
 const Coarse = (() => {

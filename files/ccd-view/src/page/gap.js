@@ -1,4 +1,4 @@
-// The gap over time: the measured distance, and under it the line that is proven at every time.
+// Plots the distance over time: the measured distance, and below it the proven lower bound.
 "use strict";
 
 class GapPlot {
@@ -27,7 +27,7 @@ class GapPlot {
     const { gap, contacts, start, duration } = view;
     const parts = [];
     const step = GapPlot.niceStep(duration / (this.width / 160));
-    // From the first tick on: beside a large start, small steps are lost.
+    // Counted from the first tick: added to a large start, small steps would be lost to rounding.
     const first = Math.ceil(start / step) * step;
     for (let n = 0; duration > 0 && n < GapPlot.TICKS && first - start + n * step <= duration; n += 1) {
       const x = this.x(first - start + n * step);
@@ -43,9 +43,9 @@ class GapPlot {
     this.cursor = this.svg.querySelector("#view-cursor");
   }
 
-  curves({ points, proven, unit, required, unkept }, most) {
+  curves({ points, proven, unit, required, failing_ranges }, most) {
     // A range that is too short to see is a pixel wide.
-    const parts = unkept.map(({ from, to, is_violated }) => `<rect class="${is_violated ? "violated" : "unverified"}" x="${this.x(from)}" width="${Math.max(this.x(to) - this.x(from), 1)}" y="${GapPlot.UP}" height="${this.floor() - GapPlot.UP}"/>`);
+    const parts = failing_ranges.map(({ from, to, is_violated }) => `<rect class="${is_violated ? "violated" : "unverified"}" x="${this.x(from)}" width="${Math.max(this.x(to) - this.x(from), 1)}" y="${GapPlot.UP}" height="${this.floor() - GapPlot.UP}"/>`);
     const step = GapPlot.niceStep(most / 4);
     for (let n = 0; n * step <= most; n += 1) {
       const y = this.y(n * step);

@@ -1,4 +1,4 @@
-// What is lit at a contact: nearest points, normal, features.
+// Draws a contact: nearest points, normal, highlighted features.
 "use strict";
 
 const Marks = (() => {
@@ -11,7 +11,7 @@ const Marks = (() => {
     else stage.addTriangles(points, color);
   }
 
-  // Draws a contact in a picture of a size.
+  // Draws a contact; its marks are relative to `size`, the size of the scene.
   function draw(stage, contact, size) {
     feature(stage, contact.highlight_a, LIT.a, size);
     feature(stage, contact.highlight_b, LIT.b, size);

@@ -1,4 +1,4 @@
-// Poses of bodies: a place and a rotation by rows, of exact formulas or between keys.
+// Poses of bodies at a time: a translation and a rotation matrix, by exact formulas or between keyframes.
 "use strict";
 
 const Motion = (() => {
@@ -29,7 +29,7 @@ const Motion = (() => {
     return { rotation: turned, place: from.map((p, k) => p + velocity[k] * t - back[k]) };
   }
 
-  // Between two keys: a straight line of the center, and the first one's rotation.
+  // Between two keyframes the center moves in a straight line, and the first keyframe's rotation vector gives the rotation.
   function keyed({ center, keys }, t) {
     let next = keys.findIndex((key) => key.time > t);
     if (next < 0) next = keys.length - 1;

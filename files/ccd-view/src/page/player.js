@@ -1,4 +1,4 @@
-// The time: slider, play, steps by keys, jumps to contacts.
+// Controls of the time: slider, play, steps by keys, jumps to contacts.
 "use strict";
 
 class Player {
@@ -51,7 +51,7 @@ class Player {
   }
 }
 
-// A time in at most seven digits, rounded down as the verdict's are.
+// Returns a time as text, rounded down as in the verdict.
 Player.written = (time) => {
   const plain = time === 0 || (Math.abs(time) >= 1e-3 && Math.abs(time) < 1e12);
   if (!plain) return time.toExponential(3);
@@ -59,5 +59,5 @@ Player.written = (time) => {
   return Number(text) > time ? (time - 1e-6).toFixed(6) : text;
 };
 
-// What the whole duration takes on the screen.
+// The seconds on the screen that the whole duration takes.
 Player.SECONDS = 4;

@@ -8,7 +8,7 @@ class Stage {
     return context !== null;
   }
 
-  // `triangles` is about how many are drawn: edges of many are not smoothed, which takes long without a graphics card.
+  // `triangles` is the approximate number of triangles. Many are drawn without antialiasing, which is slow without a graphics card.
   constructor(holder, triangles) {
     this.holder = holder;
     this.renderer = new THREE.WebGLRenderer({ antialias: triangles < 60000 });
@@ -25,7 +25,7 @@ class Stage {
     this.scene.add(this.content);
     this.controls = new THREE.OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener("change", () => this.render());
-    // What fits is fitted again when the page changes its size, until somebody turns the view.
+    // The points that `fit` has shown are fitted again when the page is resized, until the user turns the view.
     this.fitted = null;
     this.controls.addEventListener("start", () => { this.fitted = null; });
     this.asked = null;
@@ -63,7 +63,7 @@ class Stage {
     this.content.clear();
   }
 
-  // Looks at all of some points from above, across their longer side.
+  // Moves the camera so that all points are in view, from above and across their longer side.
   fit(points) {
     this.fitted = points;
     const box = new THREE.Box3().setFromPoints(points.map((p) => new THREE.Vector3(...p)));
@@ -87,7 +87,7 @@ class Stage {
     this.render();
   }
 
-  // Adds a mesh; solid ones hide what is behind them.
+  // Adds a mesh; an opaque mesh hides the objects behind it.
   addMesh(geometry, color, opacity = 1) {
     const solid = opacity === 1;
     const material = new THREE.MeshLambertMaterial({ color, flatShading: true, side: THREE.DoubleSide, transparent: !solid, opacity, depthWrite: solid });
@@ -97,7 +97,7 @@ class Stage {
     return mesh;
   }
 
-  // Places a mesh: rotation by rows, and the place of its own origin.
+  // Sets the pose of a mesh: its rotation matrix by rows, and the position of its origin.
   place(mesh, { rotation: m, place: p }) {
     mesh.matrix.set(m[0], m[1], m[2], p[0], m[3], m[4], m[5], p[1], m[6], m[7], m[8], p[2], 0, 0, 0, 1);
     mesh.matrixWorldNeedsUpdate = true;
@@ -114,7 +114,7 @@ class Stage {
     this.own(bar);
   }
 
-  // Adds filled triangles, three points each; what hides them lets them shine through.
+  // Adds filled triangles, three points each; they are visible through objects in front of them, but fainter.
   addTriangles(points, color) {
     const geometry = new THREE.BufferGeometry().setFromPoints(points.map((p) => new THREE.Vector3(...p)));
     const common = { color, side: THREE.DoubleSide, transparent: true, depthWrite: false };
@@ -144,7 +144,7 @@ class Stage {
     this.content.add(arrow);
   }
 
-  // Adds what has a geometry of its own, which ends with it.
+  // Adds an object whose geometry is disposed of with it.
   own(object) {
     object.userData.own = true;
     this.content.add(object);

@@ -1,4 +1,4 @@
-// Shows views: bodies in motion, ghosts of their steps, the gap, what touches.
+// Shows views: bodies in motion, ghosts of their steps, the gap, the contacts.
 "use strict";
 (() => {
   const data = JSON.parse(document.getElementById("views").textContent);
@@ -6,14 +6,14 @@
   const element = (id) => document.getElementById(`view-${id}`);
   const [groups, views, list, words] = ["scene", "shot", "contacts", "status"].map(element);
   const GHOST = 0.13;
-  // The most contacts in the list; the plot of times has all.
+  // The greatest number of contacts in the list; the plot shows all.
   const LISTED = 1000;
   let [stage, player, plot, shown] = [null, null, null, null];
 
   const bytes = (text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0)).buffer;
   const geometries = new Map();
 
-  // The geometry of a mesh, about the middle of its box; decoded when it is first shown.
+  // Returns the geometry of a mesh, relative to the center of its box; it is decoded when it is first shown.
   function geometry(index) {
     if (!geometries.has(index)) {
       const { vertices, faces } = data.meshes[index];
@@ -28,20 +28,20 @@
 
   const ghostly = new Map();
 
-  // The geometry for ghosts, of which there are many: a coarse one in place of a fine one.
+  // Returns the geometry for ghosts. There are many ghosts, so that a fine mesh is simplified.
   function ghost(index) {
     if (!ghostly.has(index)) ghostly.set(index, Coarse.of(geometry(index)));
     return ghostly.get(index);
   }
 
-  // Where the middle of a body's mesh is at a time, seen from the view's origin.
+  // Returns the pose of the center of a body's mesh at a time, relative to the view's origin.
   function placed(view, body, t) {
     const { rotation, place } = Motion.pose(body.motion, t);
     const middle = Motion.apply(rotation, data.meshes[body.mesh].middle);
     return { rotation, place: place.map((p, k) => p + middle[k] - view.origin[k]) };
   }
 
-  // The corners of the boxes about all bodies, at some times from the start on.
+  // Returns the corners of the boxes about all bodies, at some times from the start to `until`.
   function corners(view, until) {
     const times = Array.from({ length: 9 }, (_, k) => (k * until) / 8);
     return view.bodies.flatMap((body) => {
@@ -78,7 +78,7 @@
     stage.render();
   }
 
-  // Seen from the view's origin.
+  // Returns a contact in coordinates relative to the view's origin.
   function moved(view, contact) {
     const shift = (point) => point.map((p, k) => p - view.origin[k]);
     return { ...contact, witnesses: contact.witnesses?.map(shift) ?? null, highlight_a: contact.highlight_a.map(shift), highlight_b: contact.highlight_b.map(shift) };

@@ -1,8 +1,8 @@
 //! The fuzz target that reads tables of paths.
 
 use super::motions::{OneByteReader, run_within_memory_limit};
-use ccd_tables::courses::{CourseRow, MovementRows, Movements};
 use ccd_tables::motions::{RowPosition, TableError};
+use ccd_tables::movements::{MovementRow, MovementRows, Movements};
 use ccd_tables::paths::Grouping;
 use std::io::Read;
 
@@ -34,13 +34,13 @@ fn check(bytes: &[u8], grouping: Grouping) {
 }
 
 /// Reads all rows, and the checksum at the end.
-fn read(input: impl Read, grouping: Grouping) -> Result<(Vec<CourseRow>, u32), TableError> {
+fn read(input: impl Read, grouping: Grouping) -> Result<(Vec<MovementRow>, u32), TableError> {
     let mut rows = MovementRows::new(input, grouping)?;
     let all: Result<_, _> = rows.by_ref().collect();
     Ok((all?, rows.checksum()))
 }
 
-fn check_row(row: &CourseRow) {
+fn check_row(row: &MovementRow) {
     match row {
         Ok((_, course)) => {
             assert!(course.duration() >= 0.0 && course.duration().is_finite());
@@ -59,11 +59,11 @@ fn check_row(row: &CourseRow) {
 }
 
 /// Checks that skipping rows does not affect the rows after them, except for default ids.
-fn check_rows_after_skip(bytes: &[u8], grouping: Grouping, rows: &[CourseRow], checksum: u32) {
+fn check_rows_after_skip(bytes: &[u8], grouping: Grouping, rows: &[MovementRow], checksum: u32) {
     let half = rows.len() / 2;
     let mut rest = MovementRows::new(bytes, grouping).expect("a header that was read");
     assert_eq!(rest.skip_rows(half).ok(), Some(half));
-    let place = |row: &CourseRow| -> RowPosition {
+    let place = |row: &MovementRow| -> RowPosition {
         match row {
             Ok((position, _)) => *position,
             Err(error) => error.position,

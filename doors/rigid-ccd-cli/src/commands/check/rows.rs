@@ -1,18 +1,18 @@
-//! Matches the rows of a table with the proofs that hold: by what is stated, whatever the files are called.
+//! Matches the rows of a table with the proofs that hold, by the statements of the proofs, not by the names of their files.
 
 use super::subject::Subject;
 use crate::console::RunOutcome;
 use crate::console::progress::Progress;
 use crate::files::output::print_line;
 use crate::files::{input_name, open_movement_rows};
-use crate::robots::{GivenJoints, PathTable};
+use crate::robots::{JointsArgs, PathTable};
 use crate::rows::bad_rows::BadRowCounter;
 use crate::rows::resumable::RowRange;
 use anyhow::{Context, Result, bail};
-use ccd_prove::{Statement, Subject as Stated};
+use ccd_prove::{Statement, Subject as StatementSubject};
 use ccd_tables::Excerpt;
-use ccd_tables::courses::Movements;
 use ccd_tables::motions::{RowError, RowPosition};
+use ccd_tables::movements::Movements;
 use ccd_tables::paths::Grouping;
 use rigid_ccd::Question;
 use std::collections::BTreeMap;
@@ -20,21 +20,21 @@ use std::path::Path;
 
 /// The table whose rows have to be proven.
 #[derive(Clone, Copy)]
-pub(super) enum AskedTable<'a> {
+pub(super) enum TableToProve<'a> {
     /// A table of motions of two bodies.
     Motions(&'a Path),
-    /// A table of edges or paths, with the positions of joints that it has no columns for.
-    Edges(&'a Path, GivenJoints<'a>),
+    /// A table of edges or paths, with the options for joints without columns.
+    Edges(&'a Path, &'a JointsArgs),
 }
 
-/// The proofs that hold, by what they state.
+/// The proofs that hold, indexed by the subjects of their statements.
 #[derive(Default)]
 pub(super) struct Proofs {
-    all: Vec<HeldProof>,
-    by_subject: BTreeMap<Stated, Vec<usize>>,
+    all: Vec<CheckedProof>,
+    by_subject: BTreeMap<StatementSubject, Vec<usize>>,
 }
 
-struct HeldProof {
+struct CheckedProof {
     name: String,
     statement: Statement,
     is_of_a_row: bool,
@@ -53,8 +53,8 @@ enum Extent {
     Whole,
 }
 
-/// A row of the table: for each segment what a proof has to state, if one can.
-struct AskedRow {
+/// A row of the table, with the statement that a proof of each segment must have; `None` if no proof can state it.
+struct RowToProve {
     position: RowPosition,
     id: String,
     segments: Vec<Option<Statement>>,
@@ -67,17 +67,17 @@ impl Proofs {
             .entry(statement.subject())
             .or_default()
             .push(number);
-        self.all.push(HeldProof {
+        self.all.push(CheckedProof {
             name: name.to_owned(),
             statement,
             is_of_a_row: false,
         });
     }
 
-    /// Prints for each asked row of a table which proofs are about it, and which proofs are of no row of the table.
+    /// Prints for each selected row of a table which proofs are about it, and which proofs belong to no row.
     pub(super) fn match_rows(
         mut self,
-        (table, asked): (AskedTable<'_>, RowRange),
+        (table, row_range): (TableToProve<'_>, RowRange),
         subject: &Subject<'_>,
     ) -> Result<RunOutcome> {
         let mut counts = BTreeMap::new();
@@ -86,10 +86,10 @@ impl Proofs {
         let mut number = 0;
         table.for_each_row(subject, |row| {
             number += 1;
-            if !asked.contains(number - 1) {
-                // Its proofs are of a row, too.
+            if !row_range.contains(number - 1) {
+                // Its proofs belong to a row, too.
                 let segments = row.iter().flat_map(|row| &row.segments);
-                segments.for_each(|wanted| drop(self.best_proof(wanted.as_ref())));
+                segments.for_each(|expected| drop(self.best_proof(expected.as_ref())));
                 return Ok(());
             }
             match row {
@@ -102,9 +102,9 @@ impl Proofs {
             Ok(())
         })?;
         bad_rows.print_total();
-        let of_no_row = self.all.iter().filter(|proof| !proof.is_of_a_row);
-        let of_no_row: Vec<&str> = of_no_row.map(|proof| &*proof.name).collect();
-        for name in &of_no_row {
+        let proofs_of_no_row = self.all.iter().filter(|proof| !proof.is_of_a_row);
+        let proofs_of_no_row: Vec<&str> = proofs_of_no_row.map(|proof| &*proof.name).collect();
+        for name in &proofs_of_no_row {
             print_line(&format!("{name}: is of no row"))?;
         }
         let count = |extent| counts.get(&extent).copied().unwrap_or(0);
@@ -115,9 +115,9 @@ impl Proofs {
             count(Extent::UntilContact),
             count(Extent::Part),
             count(Extent::Nothing),
-            of_no_row.len()
+            proofs_of_no_row.len()
         ))?;
-        let is_proven = count(Extent::Part) + count(Extent::Nothing) + of_no_row.len() == 0;
+        let is_proven = count(Extent::Part) + count(Extent::Nothing) + proofs_of_no_row.len() == 0;
         Ok(if bad_rows.count() > 0 || rows == 0 {
             RunOutcome::SomeRowsBad
         } else if is_proven {
@@ -128,43 +128,46 @@ impl Proofs {
     }
 
     /// Prints which proofs are about a row, and returns how far it is proven.
-    fn match_row(&mut self, row: &AskedRow) -> Result<Extent> {
-        let mut found = Vec::new();
+    fn match_row(&mut self, row: &RowToProve) -> Result<Extent> {
+        let mut proof_names = Vec::new();
         let mut extent = Extent::Whole;
         let mut text = String::new();
-        for (number, wanted) in row.segments.iter().enumerate() {
-            let proof = self.best_proof(wanted.as_ref());
+        for (number, expected) in row.segments.iter().enumerate() {
+            let proof = self.best_proof(expected.as_ref());
             extent = proof
                 .as_ref()
                 .map_or(Extent::Nothing, |(extent, _)| *extent);
-            let of_segment = if row.segments.len() > 1 {
+            let segment_label = if row.segments.len() > 1 {
                 format!("segment {number} ")
             } else {
                 String::new()
             };
             if let Some((_, name)) = proof {
-                found.push(name);
+                proof_names.push(name);
             }
-            let Some(wanted) = wanted else {
-                text = format!("{of_segment}cannot be stated in a proof");
+            let Some(expected) = expected else {
+                text = format!("{segment_label}cannot be stated in a proof");
                 break;
             };
             text = match extent {
                 Extent::Whole => "to the end".to_owned(),
-                Extent::UntilContact => format!("{of_segment}until a contact"),
-                Extent::Part => format!("{of_segment}in part, not to {}", wanted.until),
-                Extent::Nothing => format!("{of_segment}has no proof"),
+                Extent::UntilContact => format!("{segment_label}until a contact"),
+                Extent::Part => format!("{segment_label}in part, not to {}", expected.until),
+                Extent::Nothing => format!("{segment_label}has no proof"),
             };
             if extent != Extent::Whole {
                 break;
             }
         }
-        let AskedRow { position, id, .. } = row;
-        let names = found.join(" ");
-        let gap = if names.is_empty() { "" } else { ": " };
-        print_line(&format!("{position} {}: {text}{gap}{names}", Excerpt(id)))?;
-        // What is proven of the segments before leaves the row proven in part.
-        let has_more = row.segments.len() > 1 && !found.is_empty();
+        let RowToProve { position, id, .. } = row;
+        let names = proof_names.join(" ");
+        let separator = if names.is_empty() { "" } else { ": " };
+        print_line(&format!(
+            "{position} {}: {text}{separator}{names}",
+            Excerpt(id)
+        ))?;
+        // Earlier segments are proven, so the row is proven in part.
+        let has_more = row.segments.len() > 1 && !proof_names.is_empty();
         Ok(if extent == Extent::Nothing && has_more {
             Extent::Part
         } else {
@@ -172,17 +175,18 @@ impl Proofs {
         })
     }
 
-    /// Returns the proof that says most of a segment; all that are about it are proofs of a row.
-    fn best_proof(&mut self, wanted: Option<&Statement>) -> Option<(Extent, String)> {
-        let wanted = wanted?;
+    /// Returns the name of the proof that covers most of a segment, with its extent. Marks all proofs of the segment as
+    /// belonging to a row.
+    fn best_proof(&mut self, expected: Option<&Statement>) -> Option<(Extent, String)> {
+        let expected = expected?;
         let mut best: Option<(Extent, String)> = None;
-        for &number in self.by_subject.get(&wanted.subject())? {
+        for &number in self.by_subject.get(&expected.subject())? {
             let proof = &mut self.all[number];
-            if !proof.statement.keeps_margins_of(wanted) {
+            if !proof.statement.keeps_margins_of(expected) {
                 continue;
             }
             proof.is_of_a_row = true;
-            let extent = extent(&proof.statement, wanted.until);
+            let extent = extent(&proof.statement, expected.until);
             if best.as_ref().is_none_or(|(most, _)| *most < extent) {
                 best = Some((extent, proof.name.clone()));
             }
@@ -191,7 +195,7 @@ impl Proofs {
     }
 }
 
-/// Returns how far a proof goes of a segment that ends at a time.
+/// Returns how far a proof covers a segment that ends at a time.
 fn extent(statement: &Statement, end: f64) -> Extent {
     let witness = statement.witness.as_ref();
     if witness.is_some_and(|witness| witness.time == statement.until) {
@@ -203,22 +207,22 @@ fn extent(statement: &Statement, end: f64) -> Extent {
     }
 }
 
-impl AskedTable<'_> {
+impl TableToProve<'_> {
     fn path(&self) -> &Path {
         match self {
-            AskedTable::Motions(path) | AskedTable::Edges(path, _) => path,
+            TableToProve::Motions(path) | TableToProve::Edges(path, _) => path,
         }
     }
 
-    /// Calls a function for each row, or with what is wrong with it.
+    /// Calls a function for each row, with the row or with its error.
     fn for_each_row(
         self,
         subject: &Subject<'_>,
-        mut each: impl FnMut(Result<AskedRow, RowError>) -> Result<()>,
+        mut each: impl FnMut(Result<RowToProve, RowError>) -> Result<()>,
     ) -> Result<()> {
         let name = || input_name(self.path());
         match (self, subject) {
-            (AskedTable::Motions(path), Subject::Pair(pair, margin)) => {
+            (TableToProve::Motions(path), Subject::Pair(pair, margin)) => {
                 let Some(pair) = pair.proven()? else {
                     bail!("--motions needs --a and --b");
                 };
@@ -229,22 +233,22 @@ impl AskedTable<'_> {
                 }
                 for row in rows {
                     let row = row.with_context(name)?.map(|(position, movements)| {
-                        let wanted = match &movements {
+                        let expected = match &movements {
                             Movements::Motions(motions) => {
                                 pair.statement([motions.a, motions.b], motions.duration, *margin)
                             }
                             Movements::Path(_) => None,
                         };
-                        AskedRow {
+                        RowToProve {
                             position,
                             id: movements.id().to_owned(),
-                            segments: vec![wanted],
+                            segments: vec![expected],
                         }
                     });
                     each(row)?;
                 }
             }
-            (AskedTable::Edges(path, joints), Subject::Cell(cell, clearance)) => {
+            (TableToProve::Edges(path, joints), Subject::Cell(cell, clearance)) => {
                 let (table, _) = PathTable::open("--edges", path, cell.cell().robot(), joints)
                     .with_context(name)?;
                 for row in table {
@@ -257,10 +261,10 @@ impl AskedTable<'_> {
                                 [only] => vec![statement([only, only])?],
                                 several => several
                                     .windows(2)
-                                    .map(|two| statement([&two[0], &two[1]]))
+                                    .map(|ends| statement([&ends[0], &ends[1]]))
                                     .collect::<Result<_, _>>()?,
                             };
-                            Ok(AskedRow {
+                            Ok(RowToProve {
                                 position: path.position,
                                 id: path.id,
                                 segments,

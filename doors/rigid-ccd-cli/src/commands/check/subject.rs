@@ -1,4 +1,4 @@
-//! What proofs have to be about: two bodies, or all pairs of a cell.
+//! The subject that proofs must have: two bodies, or all pairs of a cell.
 
 use crate::bodies::meshes::MeshArgs;
 use anyhow::{Context, Result};
@@ -6,35 +6,36 @@ use ccd_core::order::lesser;
 use ccd_decomp::BodySource;
 use ccd_prove::{Body, ProvenCell, ProvenPair, Statement};
 
-/// What proofs have to be about.
+/// The subject that proofs must have.
 pub(super) enum Subject<'c> {
-    /// One pair, whose bodies have these digests, as far as they are given; if none is, anything. The pair keeps a margin.
-    Pair(Box<WantedPair>, f64),
+    /// A pair of bodies, with the margin that it keeps. If no body is given, proofs may be about anything.
+    Pair(Box<ExpectedPair>, f64),
     /// All pairs of a cell, with a distance that they keep.
     Cell(ProvenCell<'c>, f64),
 }
 
-/// The bodies that proofs have to be about, as far as they are given.
-pub(super) struct WantedPair {
+/// The bodies that proofs must be about; `None` for a body that is not given.
+pub(super) struct ExpectedPair {
     bodies: [Option<ccd_core::Body>; 2],
     digests: [Option<[u8; 32]>; 2],
 }
 
-impl WantedPair {
+impl ExpectedPair {
     /// Loads the bodies that are named.
     pub(super) fn load(names: [&Option<String>; 2], meshes: &MeshArgs) -> Result<Self> {
         let [a, b] = names;
         let bodies = [load(("--a", a), meshes)?, load(("--b", b), meshes)?];
         let digest = |option: &str, body: &Option<ccd_core::Body>| {
-            let made = |body| Body::of(body).with_context(|| format!("{option}: has no triangles"));
-            let body = body.as_ref().map(made).transpose()?;
+            let read_body =
+                |body| Body::of(body).with_context(|| format!("{option}: has no triangles"));
+            let body = body.as_ref().map(read_body).transpose()?;
             Ok::<_, anyhow::Error>(body.map(|body| body.digest()))
         };
         let digests = [digest("--a", &bodies[0])?, digest("--b", &bodies[1])?];
-        Ok(WantedPair { bodies, digests })
+        Ok(ExpectedPair { bodies, digests })
     }
 
-    /// Returns the bodies as proofs take them; `None` if not both are given.
+    /// Returns both bodies in the form for proofs; `None` if one is not given.
     pub(super) fn proven(&self) -> Result<Option<ProvenPair>> {
         let [Some(a), Some(b)] = &self.bodies else {
             return Ok(None);
@@ -51,20 +52,21 @@ impl WantedPair {
             return false;
         };
         let digest = |number: u32| statement.bodies.get(number as usize).map(|body| body.0);
-        let is = |wanted: Option<[u8; 32]>, number| wanted.is_none() || wanted == digest(number);
-        is(self.digests[0], a) && is(self.digests[1], b)
+        let matches_digest =
+            |expected: Option<[u8; 32]>, number| expected.is_none() || expected == digest(number);
+        matches_digest(self.digests[0], a) && matches_digest(self.digests[1], b)
     }
 }
 
 impl Subject<'_> {
-    /// Returns what a statement that holds says, if it is about this.
+    /// Returns the verdict of a proof that holds: its statement in short.
     ///
     /// # Errors
-    /// The verdict, if it is about something else.
+    /// The verdict of a proof that is about another subject.
     pub(super) fn verdict(&self, statement: &Statement) -> Result<String, String> {
         let mut text = String::from("holds: ");
         match self {
-            Subject::Pair(wanted, _) if !wanted.is_subject_of(statement) => {
+            Subject::Pair(expected, _) if !expected.is_subject_of(statement) => {
                 return Err("other bodies".into());
             }
             Subject::Pair(_, margin) => {
@@ -89,7 +91,7 @@ impl Subject<'_> {
     }
 }
 
-/// Loads a body that is named.
+/// Loads the body that an option names; `None` without the option.
 fn load(
     (option, body): (&'static str, &Option<String>),
     meshes: &MeshArgs,

@@ -1,4 +1,4 @@
-//! What `ccd clearance` prints.
+//! The report that `ccd clearance` prints.
 
 use crate::robots::page::MAX_RANGES;
 use crate::robots::path_table::TablePath;
@@ -11,14 +11,14 @@ use rigid_ccd_robot::{
 use serde_json::{Value, json};
 use std::fmt;
 
-/// The greatest number of joints by whose positions a point of the path is described. With more, it is the time on the path.
+/// The greatest number of moving joints whose positions describe a point of the path. With more joints, its time does.
 const MAX_NAMED_JOINTS: usize = 3;
 
 /// The distances of a mechanism along a path.
 pub(super) struct Report<'a> {
     pub(super) cell: &'a Cell,
     pub(super) path: &'a TablePath,
-    /// How far points may be from where the path places them.
+    /// The greatest distance of points of links from where the path places them.
     pub(super) pose_error: f64,
     /// The clearance that is required, if any.
     pub(super) required: Option<f64>,
@@ -29,7 +29,7 @@ pub(super) struct Report<'a> {
 }
 
 impl Report<'_> {
-    /// Returns the bounds of the least distance. Both bodies of a pair may be off by the error of poses.
+    /// Returns the bounds of the least distance. Both bodies of a pair may deviate by the pose error.
     fn distance_bounds(&self, closest: &PathOutcome<'_>) -> [f64; 2] {
         let error = 2.0 * self.pose_error;
         let lower = closest.lower() - error;
@@ -38,10 +38,10 @@ impl Report<'_> {
     }
 
     /// Returns the positions of the joints that move, at a point of the path.
-    fn moving_positions(&self, at: PathPoint) -> Vec<(&str, f64)> {
+    fn moving_positions(&self, point: PathPoint) -> Vec<(&str, f64)> {
         let configurations = &self.path.configurations;
-        let from = &configurations[at.segment];
-        let to = &configurations[(at.segment + 1).min(configurations.len() - 1)];
+        let from = &configurations[point.segment];
+        let to = &configurations[(point.segment + 1).min(configurations.len() - 1)];
         let names = self.cell.robot().independent_joint_names().enumerate();
         let moving = names.filter(|(k, _)| {
             let first = configurations[0][*k];
@@ -50,26 +50,29 @@ impl Report<'_> {
                 .any(|configuration| configuration[*k] != first)
         });
         moving
-            .map(|(k, name)| (name, from[k] + at.fraction * (to[k] - from[k])))
+            .map(|(k, name)| (name, from[k] + point.fraction * (to[k] - from[k])))
             .collect()
     }
 
     /// Describes a point of the path by the positions of the joints that move.
-    fn place(&self, at: PathPoint) -> String {
-        self.place_rounded_towards(at, at)
+    fn point_text(&self, point: PathPoint) -> String {
+        self.point_text_rounded_towards(point, point)
     }
 
-    /// Describes a point of the path; its positions are rounded towards those of another point.
-    fn place_rounded_towards(&self, at: PathPoint, other: PathPoint) -> String {
-        let others = self.moving_positions(other);
-        if others.len() > MAX_NAMED_JOINTS {
-            let [time, towards] =
-                [at, other].map(|point| 1e6 * self.path.table_time_rounded_down(point.time()));
-            return format!("time {:.6}", 1e-6 * rounded_towards(time, towards));
+    /// Describes a point of the path; its positions are rounded towards the positions of another point.
+    fn point_text_rounded_towards(&self, point: PathPoint, other: PathPoint) -> String {
+        let other_positions = self.moving_positions(other);
+        if other_positions.len() > MAX_NAMED_JOINTS {
+            let [time, other_time] =
+                [point, other].map(|point| 1e6 * self.path.table_time_rounded_down(point.time()));
+            return format!("time {:.6}", 1e-6 * rounded_towards(time, other_time));
         }
-        let positions = self.moving_positions(at).into_iter().zip(others);
-        let positions = positions.map(|((name, position), (_, towards))| {
-            let text = self.position_text(name, position, towards);
+        let positions = self
+            .moving_positions(point)
+            .into_iter()
+            .zip(other_positions);
+        let positions = positions.map(|((name, position), (_, other_position))| {
+            let text = self.position_text(name, position, other_position);
             format!("{name} = {text}")
         });
         let positions: Vec<String> = positions.collect();
@@ -80,7 +83,7 @@ impl Report<'_> {
         }
     }
 
-    fn position_text(&self, name: &str, position: f64, towards: f64) -> String {
+    fn position_text(&self, name: &str, position: f64, other_position: f64) -> String {
         let joint = self
             .cell
             .robot()
@@ -94,12 +97,12 @@ impl Report<'_> {
         } else {
             (1e3, " mm")
         };
-        let shown = [position, towards].map(|position| 1e4 * factor * position);
-        format!("{:.4}{unit}", 1e-4 * rounded_towards(shown[0], shown[1]))
+        let scaled = [position, other_position].map(|position| 1e4 * factor * position);
+        format!("{:.4}{unit}", 1e-4 * rounded_towards(scaled[0], scaled[1]))
     }
 
-    fn positions_json(&self, at: PathPoint) -> Value {
-        let positions = self.moving_positions(at).into_iter();
+    fn positions_json(&self, point: PathPoint) -> Value {
+        let positions = self.moving_positions(point).into_iter();
         Value::Object(
             positions
                 .map(|(name, position)| (name.to_owned(), json!(position)))
@@ -133,7 +136,7 @@ impl Report<'_> {
 
     /// Returns the report with the curve of the distance; lengths in metres, angles in radians.
     pub(super) fn to_json(&self, curve: &[DistanceRange<'_>]) -> Value {
-        // Rounded inwards, so that what is said of a range holds in all of it.
+        // Rounded inwards, so that a verdict holds in the whole range.
         let range = |from: PathPoint, to: PathPoint| {
             json!({
                 "from": self.path.table_time_rounded_up(from.time()),
@@ -142,9 +145,9 @@ impl Report<'_> {
                 "to_positions": self.positions_json(to),
             })
         };
-        let with = |mut range: Value, more: Value| {
-            if let (Some(range), Value::Object(more)) = (range.as_object_mut(), more) {
-                range.extend(more);
+        let with_entries = |mut range: Value, entries: Value| {
+            if let (Some(range), Value::Object(entries)) = (range.as_object_mut(), entries) {
+                range.extend(entries);
             }
             range
         };
@@ -154,11 +157,11 @@ impl Report<'_> {
             "required": self.required,
             "verdict": self.verdict().map(verdict_name),
             "ranges": self.ranges.iter().map(|found| {
-                with(range(found.from, found.to), json!({ "clearance": verdict_name(found.verdict) }))
+                with_entries(range(found.from, found.to), json!({ "clearance": verdict_name(found.verdict) }))
             }).collect::<Vec<_>>(),
-            "curve": curve.chunks(curve.len().div_ceil(MAX_RANGES).max(1)).filter_map(|few| {
-                let found = merged(few)?;
-                Some(with(range(found.from, found.to), self.closest_json(&found.closest)))
+            "curve": curve.chunks(curve.len().div_ceil(MAX_RANGES).max(1)).filter_map(|neighbours| {
+                let merged = merged(neighbours)?;
+                Some(with_entries(range(merged.from, merged.to), self.closest_json(&merged.closest)))
             }).collect::<Vec<_>>(),
             "not_checked": self.pairs_not_checked().map(|([a, b], reason)| {
                 json!({ "a": a, "b": b, "reason": reason })
@@ -166,7 +169,7 @@ impl Report<'_> {
         })
     }
 
-    /// Returns the verdict about the whole path, the worst of its ranges; `None` if no clearance is required.
+    /// Returns the verdict about the whole path, which is the worst of its ranges; `None` if no clearance is required.
     pub(super) fn verdict(&self) -> Option<ClearanceVerdict> {
         self.required?;
         let verdicts = [ClearanceVerdict::Violated, ClearanceVerdict::Unverified];
@@ -180,7 +183,7 @@ impl Report<'_> {
         )
     }
 
-    /// Iterates over the pairs of links with bodies that are not checked, with the reason.
+    /// Returns the pairs of links with bodies that are not checked, each with the reason.
     fn pairs_not_checked(&self) -> impl Iterator<Item = ([&str; 2], String)> {
         let (robot, pairs) = (self.cell.robot(), self.cell.link_pairs());
         pairs.skipped_pairs().map(|([one, other], reason)| {
@@ -190,7 +193,8 @@ impl Report<'_> {
     }
 }
 
-/// Returns ranges that follow each other as one: with the least bounds, the place of the least distance, and any limit.
+/// Merges consecutive ranges into one, with the least bounds, the place of the least distance, and a limit if one was
+/// reached; `None` without ranges.
 fn merged<'a>(ranges: &[DistanceRange<'a>]) -> Option<DistanceRange<'a>> {
     let merge = |one: DistanceRange<'a>, next: &DistanceRange<'a>| DistanceRange {
         from: one.from,
@@ -254,7 +258,7 @@ impl fmt::Display for Report<'_> {
         write!(f, "least distance: {lower:.5} to {upper:.5} mm")?;
         if let Some(nearest) = self.closest.nearest() {
             let [a, b] = nearest.items.map(Item::name);
-            write!(f, ", {a} and {b} at {}", self.place(nearest.at))?;
+            write!(f, ", {a} and {b} at {}", self.point_text(nearest.at))?;
         }
         if let Some(limit) = self.closest.limit() {
             write!(f, " (a limit was reached: {limit})")?;
@@ -268,8 +272,8 @@ impl fmt::Display for Report<'_> {
             )?;
         }
         for range in &self.ranges {
-            let from = self.place_rounded_towards(range.from, range.to);
-            let to = self.place_rounded_towards(range.to, range.from);
+            let from = self.point_text_rounded_towards(range.from, range.to);
+            let to = self.point_text_rounded_towards(range.to, range.from);
             write!(f, "\n  {:10} {from} to {to}", verdict_name(range.verdict))?;
         }
         Ok(())

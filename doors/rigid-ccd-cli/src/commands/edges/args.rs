@@ -1,6 +1,6 @@
 //! The options of `ccd edges`.
 
-use crate::options::named::{Named, START_POLICIES, named_value_parser};
+use crate::options::named::{named_value_parser, start_policy_parser};
 use crate::options::numbers::parse_seconds;
 use crate::robots::DEFAULT_PATH_TOLERANCE;
 use crate::robots::joint_values::{JointsArgs, length, tolerance_length};
@@ -27,13 +27,13 @@ pub(crate) struct EdgesArgs {
     #[command(flatten)]
     pub(super) joints: JointsArgs,
     /// Question that every row answers
-    #[arg(long, value_parser = named_value_parser(QUESTIONS), default_value = "is-free")]
+    #[arg(long, value_parser = named_value_parser(QUESTIONS.map(|(question, help)| (question.name(), question, help))), default_value = "is-free")]
     pub(super) question: Question,
     /// Report a contact at a distance of at most clearance + tolerance, in metres
     #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_PATH_TOLERANCE, value_parser = tolerance_length, allow_hyphen_values = true)]
     pub(super) tolerance: f64,
     /// How to treat pairs in contact at the start of a row, such as an object that is lifted; not for closest-approach
-    #[arg(long, value_parser = named_value_parser(START_POLICIES), default_value = "report")]
+    #[arg(long, value_parser = start_policy_parser(), default_value = "report")]
     pub(super) start: StartPolicy,
     /// Leave a row unresolved after this time, in seconds [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_hyphen_values = true)]
@@ -52,8 +52,8 @@ pub(crate) struct EdgesArgs {
     /// Write the table of results to this file, CSV; - writes to standard output
     #[arg(long, value_name = "CSV", default_value = "-")]
     pub(super) out: PathBuf,
-    /// Write machine-checkable proofs to this folder: ROW-ID.proof for each edge, ROW.SEGMENT-ID.proof for each segment of a path
-    /// that begins in a row, until the first contact; `ccd check` checks them
+    /// Write machine-checkable proofs to this folder: ROW-ID.proof for each edge, ROW.SEGMENT-ID.proof for each segment
+    /// of a path that begins in a row, until the first contact; `ccd check` checks them
     #[arg(long, value_name = "FOLDER")]
     pub(super) certificates: Option<PathBuf>,
     /// Leave column `micros` empty, so that equal answers give equal files
@@ -70,26 +70,15 @@ pub(crate) struct EdgesArgs {
     pub(super) quiet: bool,
 }
 
-/// The questions of `--question`.
-const QUESTIONS: &Named<Question> = &[
-    (
-        Question::AnyContact.name(),
-        Question::AnyContact,
-        "Does nothing touch?",
-    ),
-    (
-        Question::FirstContact.name(),
-        Question::FirstContact,
-        "What touches first, and where?",
-    ),
-    (
-        Question::ClosestApproach.name(),
-        Question::ClosestApproach,
-        "How near does any pair come?",
-    ),
+/// The questions of `--question`, each with its help.
+const QUESTIONS: [(Question, &str); 3] = [
+    (Question::AnyContact, "Does nothing touch?"),
+    (Question::FirstContact, "What touches first, and where?"),
+    (Question::ClosestApproach, "How near does any pair come?"),
 ];
 
-/// The ids of the options that the journal does not record, because they change no byte of the table, or are recorded otherwise.
+/// The ids of the options that the journal does not record, because they change no byte of the table, or are recorded
+/// in another form.
 pub(super) const UNRECORDED_OPTIONS: [&str; 7] = [
     "edges", "threads", "out", "resume", "check", "quiet", "rows",
 ];
@@ -101,7 +90,7 @@ Examples:
   ccd edges arm.urdf --cell cell.toml --edges path.csv --question closest-approach
   printf 'from_shoulder,to_shoulder\\n0,1.5\\n' | ccd edges arm.urdf --joint elbow=30deg --edges -
 
-An SRDF of `ccd acm` leaves out pairs that never touch, also if they come nearer than --clearance.
+An SRDF of `ccd acm` leaves out pairs that never touch, even if they come nearer than --clearance.
 
 See `ccd edges --help` for the columns, the file of a cell and the exit codes.";
 
@@ -111,29 +100,29 @@ Table of edges: a row for each edge, on which all joints move at constant rates.
   from_JOINT, to_JOINT      position of the joint at the start and at the end: radians or metres
 Table of paths: a row for each configuration; rows of one id follow each other.
   id                        name of the path [default: all rows are one path]
-  t                         time of the row, later than that of the row before [default: 0, 1, 2, ...]
+  t                         time of the row, later than in the row before [default: 0, 1, 2, ...]
   JOINT                     position of the joint, which is not named id or t
-Each joint with a position of its own needs its columns, or --joint. Mimic joints have none.
+Each independent joint needs its columns, or --joint. Mimic joints have no columns.
 In Parquet, columns hold numbers, text or booleans, and an absent value is an empty cell.
 
-Cell (--cell), TOML. Bodies are those of `ccd query --a`; files are looked for next to the cell.
+Cell (--cell), TOML. Bodies have the forms of `ccd query --a`; files are searched next to the cell.
   [[obstacle]]
   name = \"table\"
   body = \"box:0.8,0.8,0.02\"       # half extents
   position = [0, 0, -0.05]        # in the frame of the robot's base [default: 0]
   rpy = [0, 0, 1.57]              # or quaternion_xyzw [default: none]
-  moves = \"floating\"              # or planar: it has joints of its own, table/base/x and so on [default: it rests]
+  moves = \"floating\"              # or planar: it gets joints, table/base/x and so on [default: it rests]
   [[plane]]                       # a half-space without an end, below z = 0 of its frame
   name = \"floor\"
-  position = [0, 0, -0.1]         # and rpy or quaternion_xyzw, as an obstacle
-  [[robot]]                       # another one, placed as an obstacle; its joints are right/shoulder and so on
+  position = [0, 0, -0.1]         # and rpy or quaternion_xyzw, like an obstacle
+  [[robot]]                       # another robot, placed like an obstacle; its joints are right/shoulder and so on
   name = \"right\"
   urdf = \"arm.urdf\"               # and srdf
   base = \"planar\"                 # or floating [default: it rests]
-  [[attached]]                    # an object that a link holds: as an obstacle, in the link's frame, with
+  [[attached]]                    # an object that a link holds: like an obstacle, in the link's frame, with
   link = \"hand\"
   may_touch = [\"finger\"]          # links, other objects and obstacles
-  [padding]                       # distance that obstacles keep from a link, beside --clearance
+  [padding]                       # distance that obstacles keep from a link, added to --clearance
   hand = 0.01
   [[clearance]]                   # distance that a pair keeps, instead of --clearance and padding
   between = [\"hand\", \"table\"]
@@ -150,15 +139,15 @@ Table of results:
             overlapping     a pair overlaps at the start (first-contact)
             measured        the least distance is between distance_lower and distance_upper
             kept, violated, unverified
-                            the same, compared with --clearance; paddings and clearances of the cell do not count
+                            the least distance, compared with --clearance alone, not with paddings and [[clearance]]
             unresolved      a limit was reached; of first-contact: free until `time`
             error           the row is no valid question; see `reason`
-  time                      where the pair is: of an edge from 0 to 1, of a path the number of the segment and the fraction
-                            of it, or the time of column `t`. Of a first contact: proven, nothing touches before
-  a, b                      links, held objects or obstacles; a is of the robot
+  time                      time of the pair: on an edge from 0 to 1; on a path the number of the segment plus the fraction
+                            of it, or the time of column `t`. Nothing touches before a first contact: this is proven
+  a, b                      links, held objects or obstacles; a belongs to the robot
   distance_lower, distance_upper
                             bounds of the distance of a and b at `time`; of closest-approach: of the least distance of
-                            all pairs on the path. What bodies exceed their shapes by is in distance_upper
+                            all pairs on the path. distance_upper includes by how much bodies exceed their shapes
   witness_a_x ... witness_b_z
                             nearest points of both at `time`, in the frame of the base
   feature_a, feature_b      the vertex, edge or face of the mesh that each point is on (v7, e3-4, f5); empty for a convex

@@ -2,7 +2,7 @@
 
 use super::help::{AFTER_HELP, after_long_help};
 use crate::bodies::pair::BodiesArgs;
-use crate::options::named::{QUESTIONS, START_POLICIES, named_value_parser};
+use crate::options::named::{question_parser, start_policy_parser};
 use crate::options::numbers::{parse_nonnegative, parse_seconds, tolerance};
 use crate::options::solver_kind::{BoundKind, OracleKind, ScheduleKind};
 use crate::rows::resumable::RowRange;
@@ -24,7 +24,7 @@ pub(crate) struct QueryArgs {
     #[arg(long, value_name = "TABLE")]
     pub(super) motions: PathBuf,
     /// Question that every row answers; all except first-contact need --schedule best-first
-    #[arg(long, value_parser = named_value_parser(QUESTIONS), default_value_t)]
+    #[arg(long, value_parser = question_parser(), default_value_t)]
     pub(super) question: Question,
     /// Distance that the bodies must keep, for --question closest-approach or distance: rows are then `kept`, `violated` or
     /// `unverified`; in the scene's unit of length
@@ -46,7 +46,7 @@ pub(crate) struct QueryArgs {
     #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = parse_nonnegative, allow_hyphen_values = true)]
     pub(super) margin: f64,
     /// How to treat bodies in contact at the start
-    #[arg(long, value_parser = named_value_parser(START_POLICIES), default_value = "report")]
+    #[arg(long, value_parser = start_policy_parser(), default_value = "report")]
     pub(super) start: StartPolicy,
     /// Leave a query unresolved after N units of work (pairs of nodes visited, and work of equal cost), and a path
     /// after N units between two of its poses; a million takes about a second
@@ -79,7 +79,7 @@ pub(crate) struct QueryArgs {
     /// output, and needs --out FILE
     #[arg(long, value_name = "CSV")]
     pub(super) contacts: Option<PathBuf>,
-    /// Write an HTML page to this file with pictures of some rows: up to 4 of each status, or those of --html-ids
+    /// Write an HTML page to this file with pictures of some rows: up to 4 of each status, or the rows of --html-ids
     #[arg(long, value_name = "HTML")]
     pub(super) html: Option<PathBuf>,
     /// Write machine-checkable proofs of the answers to this folder: ROW-ID.proof for each row that is free, or free until it

@@ -52,8 +52,9 @@ const QUESTIONS_PLACE: &str = "{questions}\n";
 
 const LONG_HELP: &str = "\
 Table of motions:
-  Columns go by name, in any order. Every column is optional. An empty cell is an error of its row, but
-  rows with an end pose leave the velocities of that body empty, and the other way round.
+  Columns are identified by their names, in any order. Every column is optional.
+  An empty cell is an error of its row. But a row with an end pose of a body leaves the velocities of
+  that body empty, and a row with velocities leaves the end pose empty.
   Rows count from 0: in ids, in --rows and in messages. Lines of a file count from 1.
   In Parquet, columns hold numbers, text or booleans, and an absent value is an empty cell.
   id                        name of the row in the results [default: its number]
@@ -63,7 +64,7 @@ Table of motions:
   a_wx a_wy a_wz            angular velocity of A, world frame, radians per unit of time [default: 0]
   a_end_px a_end_py a_end_pz a_end_qw a_end_qx a_end_qy a_end_qz
                             instead of velocities: pose of A at the end, reached by the shortest
-                            rotation; without a position or an orientation, that of the start is kept
+                            rotation; a position or orientation without columns stays as at the start
   a_cx a_cy a_cz            center of rotation of A, in A's frame; it moves in a straight line
                             [default: A's origin]
   b_px, ...                 the same columns for B
@@ -81,17 +82,17 @@ Table of paths:
   A table with a column `t` has a row for each pose of a path, and a path for each id. Rows of one id
   follow each other. Each body moves as from a start to an end pose, from row to row.
   id                        name of the path in the results [default: all rows are one path]
-  t                         time of the row, later than that of the row before
+  t                         time of the row, later than in the row before
   a_px ... a_qz, b_px, ...  poses of A and B at that time, as above
   a_cx a_cy a_cz, b_cx, ... center of rotation, as above, the same in all rows of a path
   a_wx a_wy a_wz, b_wx, ... angular velocity to the next row, for turns of more than half a turn; it may be
                             off by a quarter turn in all, and 0 is the shortest rotation; it needs a_qw ... [default: 0]
   The results have a row for each path, and --rows counts paths; with --question distance, a row for each
-  row. Times are those of column `t`.
+  row. Times are in the scale of column `t`.
 
 Questions (--question):
 {questions}
-  Any of them may also be unresolved. An interval has the status of its first contact, and the last time of any.
+  Any row may also be unresolved. A contact interval has the status of its first contact.
 
 Table of results:
   id                        as in the table of motions
@@ -100,8 +101,8 @@ Table of results:
             touching        within margin + tolerance at the start
             overlapping     intersecting at the start, or one body inside the other, which is a solid
             measured        the distance is between distance_lower and distance_upper
-            kept            it is at least --clearance
-            violated        it is less than --clearance, also where bodies exceed their shape
+            kept            the distance is at least --clearance
+            violated        the distance of the shapes inside the bodies is less than --clearance
             unverified      --clearance is between both bounds (a smaller --tolerance may decide), or a
                             limit was reached
             unresolved      a limit was reached; no contact before `time`, not known after
@@ -110,9 +111,9 @@ Table of results:
                             when the bodies are nearest
   distance_lower, distance_upper
                             bounds of the distance at `time`; of closest-approach: distance_lower
-                            holds at all times; empty when `free`, which proves the margin alone. What
-                            bodies exceed their shape by is in distance_upper of a distance, not of
-                            a contact
+                            holds at all times; empty when `free`, which proves the margin alone. The
+                            distance_upper of a distance includes by how much bodies exceed their
+                            shapes; the one of a contact does not
   normal_x ... normal_z     unit vector from A to B, world frame, at `time`
   witness_a_x ... witness_b_z
                             a pair of nearest points, world frame, at `time`
@@ -143,8 +144,9 @@ Long runs:
   Rows are written in order, batch by batch, to files that end in .partial. They are renamed when all
   rows are there; existing files are kept until then. Repeat the same command with --resume to
   continue an interrupted run. A file that ends in .resume, next to --out, records the options and
-  the progress. One run at a time writes a file; others refuse. The number of threads, --rows and interruptions change no byte of a row, except in
-  column `micros` (see --no-micros) and with --deadline.
+  the progress. Only one run at a time writes a file; a second one refuses. The number of threads,
+  --rows and interruptions change no byte of a row, except in column `micros` (see --no-micros) and
+  with --deadline.
 
 With --bound published, times are not certified: contacts may be late or missed.
 

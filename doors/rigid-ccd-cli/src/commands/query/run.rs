@@ -13,8 +13,8 @@ use crate::rows::counts::StatusCounts;
 use crate::rows::resumable::{Batches, Checkpoint, Outputs};
 use crate::rows::timed::{TimedQuestion, answer_timed};
 use ccd_tables::batch::{BatchSize, BodyPair, TimedAnswer};
-use ccd_tables::courses::{CourseRow, Movements};
 use ccd_tables::motions::{RowPosition, RowProblem};
+use ccd_tables::movements::{MovementRow, Movements};
 use ccd_tables::results::{Line, ResultRow, Status};
 use rigid_ccd::ParallelSolver;
 use std::time::Instant;
@@ -36,10 +36,10 @@ pub(super) struct QueryRun<'a> {
     pub(super) summary: Summary,
 }
 
-/// The answer to a row with its duration, or what is wrong with the row.
+/// The answer to a row with the time that it took, or the problem of the row.
 type RowAnswer = Result<TimedAnswer, RowProblem>;
 
-impl Batches<CourseRow> for QueryRun<'_> {
+impl Batches<MovementRow> for QueryRun<'_> {
     fn row_count(&self) -> usize {
         self.batch_size.row_count()
     }
@@ -48,7 +48,7 @@ impl Batches<CourseRow> for QueryRun<'_> {
         self.progress.begin_batch(row_count, end_byte);
     }
 
-    fn answer_and_write(&mut self, rows: &[CourseRow]) -> Result<(), OutputError> {
+    fn answer_and_write(&mut self, rows: &[MovementRow]) -> Result<(), OutputError> {
         let answers = self.answer(rows);
         self.write(rows, &answers)
     }
@@ -64,12 +64,12 @@ impl Batches<CourseRow> for QueryRun<'_> {
 
 impl QueryRun<'_> {
     /// Answers the rows of a batch on all threads.
-    fn answer(&mut self, batch: &[CourseRow]) -> Vec<RowAnswer> {
+    fn answer(&mut self, batch: &[MovementRow]) -> Vec<RowAnswer> {
         let (bodies, timing, progress) = (self.bodies, &self.timed_question, &self.progress);
         let start = Instant::now();
         let answers = self.solver.map(batch, |solver, row| {
             let answer = match row {
-                Ok((_, course)) => answer_timed(bodies, course, timing, solver.as_mut()),
+                Ok((_, movements)) => answer_timed(bodies, movements, timing, solver.as_mut()),
                 Err(error) => Err(error.problem.clone()),
             };
             progress.step();
@@ -80,16 +80,19 @@ impl QueryRun<'_> {
     }
 
     /// Writes the results and contacts of a batch of answered rows, and reports the bad ones.
-    fn write(&mut self, batch: &[CourseRow], answers: &[RowAnswer]) -> Result<(), OutputError> {
+    fn write(&mut self, batch: &[MovementRow], answers: &[RowAnswer]) -> Result<(), OutputError> {
         let (columns, mut answered) = (self.args.columns(), Vec::new());
         let timing = &self.timed_question;
-        for (asked, answer) in batch.iter().zip(answers) {
-            let (position, course, mut row) = match asked {
-                Ok((position, course)) => {
-                    let row =
-                        self.bodies
-                            .result_row(timing.question, &timing.settings, course, answer);
-                    (*position, Some(course), row)
+        for (row, answer) in batch.iter().zip(answers) {
+            let (position, movements, mut row) = match row {
+                Ok((position, movements)) => {
+                    let row = self.bodies.result_row(
+                        timing.question,
+                        &timing.settings,
+                        movements,
+                        answer,
+                    );
+                    (*position, Some(movements), row)
                 }
                 Err(error) => {
                     let row = ResultRow::error(&error.id, &error.problem);
@@ -104,12 +107,12 @@ impl QueryRun<'_> {
                 }
             }
             row.micros = row.micros.filter(|_| !self.args.no_micros);
-            if let (Some(shown), Some(course)) = (&mut self.html_rows, course) {
-                shown.add_if_wanted(course, &row);
+            if let (Some(shown), Some(movements)) = (&mut self.html_rows, movements) {
+                shown.add_if_wanted(movements, &row);
             }
             self.outputs.results.add_row(&Line(&columns, &row))?;
-            if let (Some(course), Ok(timed)) = (course, answer) {
-                answered.push((position, course, timed));
+            if let (Some(movements), Ok(timed)) = (movements, answer) {
+                answered.push((position, movements, timed));
             }
         }
         self.find_and_write_contacts(&answered)?;
@@ -125,19 +128,23 @@ impl QueryRun<'_> {
             return Ok(());
         };
         let question = self.timed_question.question;
-        for few in answered.chunks(PROVEN_BATCH_ROWS) {
-            let proofs = self.solver.map(few, |_, (_, course, timed)| match course {
-                Movements::Motions(motions) => {
-                    certificates.prove(motions, (question, &timed.answer))
-                }
-                Movements::Path(_) => None,
-            });
-            for ((position, course, _), proof) in few.iter().zip(proofs) {
+        for chunk in answered.chunks(PROVEN_BATCH_ROWS) {
+            let proofs = self
+                .solver
+                .map(chunk, |_, (_, movements, timed)| match movements {
+                    Movements::Motions(motions) => {
+                        certificates.prove(motions, (question, &timed.answer))
+                    }
+                    Movements::Path(_) => None,
+                });
+            for ((position, movements, _), proof) in chunk.iter().zip(proofs) {
                 match proof {
                     None => {}
                     Some(Ok(proof)) => {
                         let row = (position.row, None);
-                        certificates.folder.write_proof(row, course.id(), &proof)?;
+                        certificates
+                            .folder
+                            .write_proof(row, movements.id(), &proof)?;
                     }
                     Some(Err(error)) => {
                         let problem = format!("certificate: {error}");
@@ -160,12 +167,12 @@ impl QueryRun<'_> {
         let (bodies, columns) = (self.bodies, contacts::columns());
         let timing = &self.timed_question;
         // A row may have very many contacts.
-        for few in answered.chunks(CONTACT_BATCH_ROWS) {
-            let all = self.solver.map(few, |_, (_, course, timed)| {
+        for chunk in answered.chunks(CONTACT_BATCH_ROWS) {
+            let contact_lists = self.solver.map(chunk, |_, (_, movements, timed)| {
                 let answered = (timing.question, &timed.answer);
-                contacts::contact_rows(bodies, course, &timing.settings, answered)
+                contacts::contact_rows(bodies, movements, &timing.settings, answered)
             });
-            for ((position, ..), rows) in few.iter().zip(all) {
+            for ((position, ..), rows) in chunk.iter().zip(contact_lists) {
                 match rows {
                     Ok(rows) => {
                         for row in rows {

@@ -3,10 +3,10 @@
 #[cfg(test)]
 mod tests;
 
-use super::limits::LIMIT_ADVICE;
 use crate::rows::counts::StatusCounts;
 use crate::rows::raised_tolerances::RaisedTolerances;
 use crate::rows::time_histogram::TimeHistogram;
+use ccd_core::Limit;
 use ccd_tables::batch::TimedAnswer;
 use ccd_tables::results::Status;
 use std::fmt;
@@ -29,10 +29,19 @@ pub(super) struct Summary {
     pub(super) advancements: u64,
     /// The number of steps in the distance backend's searches, in all queries.
     pub(super) oracle_steps: u64,
-    /// For each of the [`LIMIT_ADVICE`], the number of queries that the limit ended.
-    limit_counts: [usize; LIMIT_ADVICE.len()],
+    /// For each of the [`LIMITS`], the number of queries that the limit ended.
+    limit_counts: [usize; LIMITS.len()],
     pub(super) raised_tolerances: RaisedTolerances,
 }
+
+/// The limits that may end a query, in the order in which the summary lists them.
+const LIMITS: [Limit; 5] = [
+    Limit::Budget,
+    Limit::Deadline,
+    Limit::Stalled,
+    Limit::OracleGaveUp,
+    Limit::OverlapUndecided,
+];
 
 impl Summary {
     /// Creates an empty summary of queries with the given tolerance.
@@ -43,7 +52,7 @@ impl Summary {
         }
     }
 
-    /// Returns the summary with the counts of an earlier run's rows in place of its own.
+    /// Returns the summary with the counts of an earlier run's rows.
     pub(super) fn with_earlier_counts(self, counts: StatusCounts) -> Self {
         Summary {
             counts,
@@ -56,7 +65,7 @@ impl Summary {
     pub(super) fn add(&mut self, status: Status, timed: &TimedAnswer) {
         let answer = &timed.answer;
         self.counts.add(status);
-        for (count, (limit, _)) in self.limit_counts.iter_mut().zip(LIMIT_ADVICE) {
+        for (count, limit) in self.limit_counts.iter_mut().zip(LIMITS) {
             *count += usize::from(answer.outcome.limit() == Some(limit));
         }
         self.visited_node_pairs += answer.stats.iterations;
@@ -82,6 +91,24 @@ impl Summary {
     }
 }
 
+/// Returns the advice about a limit, with the names of options in place of settings.
+fn advice_with_options(limit: Limit) -> String {
+    let names = [
+        ("larger tolerance", "larger --tolerance"),
+        (
+            "is_free with a margin",
+            "--question is-free with a --margin",
+        ),
+        ("larger budget", "larger --budget"),
+        ("later deadline", "later --deadline"),
+        ("another one", "another --oracle"),
+    ];
+    let advice = limit.advice().to_owned();
+    (names.iter()).fold(advice, |advice, (setting, option)| {
+        advice.replace(setting, option)
+    })
+}
+
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rows = self.counts.row_count();
@@ -105,8 +132,9 @@ impl fmt::Display for Summary {
             self.visited_node_pairs,
             self.oracle_calls
         )?;
-        for (count, (_, advice)) in self.limit_counts.iter().zip(LIMIT_ADVICE) {
+        for (count, limit) in self.limit_counts.iter().zip(LIMITS) {
             if *count > 0 {
+                let advice = advice_with_options(limit);
                 write!(f, "\n{count} unresolved: {advice}")?;
             }
         }

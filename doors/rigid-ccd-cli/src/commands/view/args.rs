@@ -2,7 +2,6 @@
 
 use crate::bodies::meshes::MeshArgs;
 use crate::bodies::pair::BodiesArgs;
-use crate::bodies::scene_table::SceneArgs;
 use crate::options::numbers::{parse_nonnegative, tolerance};
 use crate::robots::{CellArgs, DEFAULT_PATH_TOLERANCE, JointsArgs, length};
 use ccd_core::limits::DEFAULT_TOLERANCE;
@@ -24,7 +23,8 @@ pub(crate) struct ViewArgs {
     /// Distance that all pairs of the robot have to keep, such as 0.005 or 5mm
     #[arg(long, value_name = "LENGTH", default_value = "0", value_parser = length, requires = "urdf")]
     pub(super) clearance: f64,
-    /// Table of edges or paths of the robot, CSV or Parquet, as of `ccd edges`; - reads CSV from standard input
+    /// Table of edges or paths of the robot, CSV or Parquet, in the format of `ccd edges`; - reads CSV from standard
+    /// input
     #[arg(long, visible_alias = "edges", value_name = "TABLE", requires = "urdf", conflicts_with_all = ["motions", "a", "b", "scene"])]
     pub(super) path: Option<PathBuf>,
     #[command(flatten)]
@@ -36,8 +36,8 @@ pub(crate) struct ViewArgs {
     #[arg(long, value_name = "BODY", requires_all = ["a", "motions"])]
     b: Option<String>,
     #[command(flatten)]
-    meshes: MeshArgs,
-    /// Table of motions or paths to show, CSV or Parquet, as of `ccd query`; - reads CSV from standard input
+    pub(super) meshes: MeshArgs,
+    /// Table of motions or paths to show, CSV or Parquet, in the format of `ccd query`; - reads CSV from standard input
     #[arg(
         long,
         value_name = "TABLE",
@@ -66,7 +66,7 @@ pub(crate) struct ViewArgs {
     pub(super) scene: Option<PathBuf>,
     /// Time at which the motions of --scene end [default: 1]
     #[arg(long, value_name = "TIME", value_parser = parse_nonnegative, allow_hyphen_values = true, conflicts_with = "urdf")]
-    duration: Option<f64>,
+    pub(super) duration: Option<f64>,
     /// Report a contact at a distance of at most margin + tolerance [default: 0.001; of a robot 0.0001]
     #[arg(long, value_name = "LENGTH", value_parser = tolerance, allow_hyphen_values = true)]
     tolerance: Option<f64>,
@@ -82,12 +82,7 @@ pub(crate) struct ViewArgs {
 }
 
 impl ViewArgs {
-    /// Returns whether no option for reading mesh files is given.
-    pub(super) fn meshes_are_default(&self) -> bool {
-        self.meshes.are_default()
-    }
-
-    /// Returns the tolerance, which is by default that of `ccd query` or of `ccd edges`.
+    /// Returns the tolerance. The default is the one of `ccd query`, or of `ccd edges` for a robot.
     pub(super) fn tolerance(&self) -> f64 {
         let default = if self.cell.robot.is_given() {
             DEFAULT_PATH_TOLERANCE
@@ -106,20 +101,12 @@ impl ViewArgs {
         };
         Some((bodies, self.motions.as_deref()?))
     }
-
-    /// Returns how the bodies of `--scene` are read.
-    pub(super) fn scene_args(&self) -> SceneArgs<'_> {
-        SceneArgs {
-            meshes: &self.meshes,
-            duration: self.duration,
-        }
-    }
 }
 
 const AFTER_HELP: &str = "\
 The page is one file that needs no network. It has a view for each row shown: both bodies, a slider for the
-time, ghosts of the steps, the measured gap over time with a proven lower bound, and what touches.
-Of a robot the gap is that of the nearest pair, and the proven line is under it at every time.
+time, ghosts of the steps, the measured gap over time with a proven lower bound, and the contact.
+For a robot, the gap is the distance of the nearest pair; it is above the proven line at every time.
 A motion is shown for its first contact. `ccd query --question ... --html` shows the other questions.
 
 Examples:

@@ -1,6 +1,6 @@
 //! Chooses the rows to draw on a page.
 
-use ccd_tables::courses::Movements;
+use ccd_tables::movements::Movements;
 use ccd_tables::results::{ResultRow, Status};
 
 /// The maximum number of rows of each status on a page, if no ids are given.
@@ -17,7 +17,7 @@ pub(crate) struct ChosenRows {
     /// The number of rows that cannot be drawn.
     undrawable_count: usize,
     /// The message about the first row that cannot be drawn.
-    first_fault: Option<String>,
+    first_message: Option<String>,
 }
 
 impl ChosenRows {
@@ -31,26 +31,26 @@ impl ChosenRows {
 
     /// Returns whether an id is one of the given ids; `None` if none are given.
     pub(super) fn is_requested(&self, id: &str) -> Option<bool> {
-        let is_one_of_them = || self.ids.iter().any(|named| named == id);
+        let is_one_of_them = || self.ids.iter().any(|given_id| given_id == id);
         (!self.ids.is_empty()).then(is_one_of_them)
     }
 
     /// Adds a row if its id is one of the given ids or, without ids, if few rows of its status have been added.
-    pub(crate) fn add_if_wanted(&mut self, course: &Movements, row: &ResultRow) {
-        let wanted = self.is_requested(&row.id).unwrap_or_else(|| {
-            let alike = self
+    pub(crate) fn add_if_wanted(&mut self, movements: &Movements, row: &ResultRow) {
+        let is_wanted = self.is_requested(&row.id).unwrap_or_else(|| {
+            let same_status = self
                 .rows
                 .iter()
-                .filter(|(_, known)| known.status == row.status);
-            alike.count() < MAX_ROWS_PER_STATUS
+                .filter(|(_, chosen)| chosen.status == row.status);
+            same_status.count() < MAX_ROWS_PER_STATUS
         });
         if row.status == Status::Error {
             if self.is_requested(&row.id) != Some(false) {
                 let reason = row.reason.as_deref().unwrap_or("not answered");
                 self.note_undrawable_row(format!("row {}: {reason}", row.id));
             }
-        } else if wanted && !self.needs_no_more_rows() {
-            self.rows.push((course.clone(), row.clone()));
+        } else if is_wanted && !self.needs_no_more_rows() {
+            self.rows.push((movements.clone(), row.clone()));
         }
     }
 
@@ -62,10 +62,10 @@ impl ChosenRows {
 
     /// Returns the given ids for which no row has been added.
     pub(super) fn ids_without_row(&self) -> impl Iterator<Item = &str> {
-        let has = |id: &&String| self.rows.iter().any(|(_, row)| row.id == **id);
+        let has_row = |id: &&String| self.rows.iter().any(|(_, row)| row.id == **id);
         self.ids
             .iter()
-            .filter(move |id| !has(id))
+            .filter(move |id| !has_row(id))
             .map(String::as_str)
     }
 
@@ -75,9 +75,9 @@ impl ChosenRows {
     }
 
     /// Counts a row that cannot be drawn; `fault` is the message about it.
-    pub(super) fn note_undrawable_row(&mut self, fault: String) {
+    pub(super) fn note_undrawable_row(&mut self, message: String) {
         self.undrawable_count += 1;
-        self.first_fault.get_or_insert(fault);
+        self.first_message.get_or_insert(message);
     }
 
     /// Returns whether no row has been added, nor counted as one that cannot be drawn.
@@ -92,11 +92,13 @@ impl ChosenRows {
 
     /// Describes the chosen rows that could not be drawn; `None` if there are none.
     pub(super) fn describe_faults(&self) -> Option<String> {
-        let fault = self.first_fault.as_ref()?;
+        let message = self.first_message.as_ref()?;
         Some(match self.undrawable_count {
-            1 => format!("one row is no valid query, and is not shown: {fault}"),
+            1 => format!("one row is no valid query, and is not shown: {message}"),
             count => {
-                format!("{count} rows are no valid queries, and are not shown; the first: {fault}")
+                format!(
+                    "{count} rows are no valid queries, and are not shown; the first: {message}"
+                )
             }
         })
     }

@@ -1,4 +1,4 @@
-//! The pairs of a cell that keep a clearance of their own, and those that may touch.
+//! The pairs of a cell with their own clearance, and the pairs that may touch.
 
 use super::values::values;
 use anyhow::{Context, Result, bail};
@@ -19,7 +19,7 @@ pub(super) struct AllowedContact {
     between: Vec<String>,
 }
 
-/// The pairs that have a clearance so far, the lesser name first.
+/// The pairs that have a clearance so far; the names of a pair are sorted.
 #[derive(Default)]
 pub(super) struct PairsWithClearance<'f>(BTreeSet<[&'f str; 2]>);
 
@@ -27,7 +27,7 @@ impl<'f> PairsWithClearance<'f> {
     /// Sets clearances.
     ///
     /// # Errors
-    /// If something is not in the cell, or a pair has two clearances.
+    /// If a name is not in the cell, or a pair has two clearances.
     pub(super) fn set(cell: &mut Cell, clearances: &'f [Clearance]) -> Result<Self> {
         let mut pairs = PairsWithClearance::default();
         for Clearance { between, distance } in clearances {
@@ -47,7 +47,7 @@ impl<'f> PairsWithClearance<'f> {
     /// Allows contacts.
     ///
     /// # Errors
-    /// If something is not in the cell, or a pair has a clearance.
+    /// If a name is not in the cell, or a pair has a clearance.
     pub(super) fn allow(&self, cell: &mut Cell, allowed: &[AllowedContact]) -> Result<()> {
         for AllowedContact { between } in allowed {
             let mut allow = || -> Result<()> {

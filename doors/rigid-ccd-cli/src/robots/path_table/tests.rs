@@ -1,6 +1,5 @@
 use super::*;
 use crate::console::causes::message_with_causes;
-use crate::robots::joint_values::JointRange;
 use ccd_tables::joint_columns::AngleUnit;
 use rigid_ccd::{Body, Pose, trajectory};
 use rigid_ccd_robot::{Joint, Link, PositionRule};
@@ -33,13 +32,12 @@ fn open_for(robot: &Robot, text: &str, (at_rest, unit): (&[&str], AngleUnit)) ->
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("edges.csv");
     fs::write(&path, text)?;
-    let named: Vec<JointRange> = at_rest.iter().map(|text| text.parse().unwrap()).collect();
-    let at_rest = GivenJoints {
-        named: &named,
-        others: OtherJoints::Refused,
-        unit,
+    let joints = JointsArgs {
+        joint: at_rest.iter().map(|text| text.parse().unwrap()).collect(),
+        rest: false,
+        degrees: unit == AngleUnit::Degree,
     };
-    Ok(PathTable::open("--edges", &path, robot, at_rest)?.0)
+    Ok(PathTable::open("--edges", &path, robot, &joints)?.0)
 }
 
 fn read(text: &str, at_rest: &[&str]) -> Vec<Result<TablePath, RowError>> {
@@ -125,7 +123,7 @@ fn tables_that_do_not_fit_the_robot_are_refused() {
         (
             "hip,rail\n0,0\n",
             vec!["leg=1"],
-            "--joint leg: no joint has this name",
+            "--joint leg: no independent joint has this name",
         ),
         (
             "from_hip,rail\n0,0\n",

@@ -6,8 +6,8 @@ use crate::files::output::OutputError;
 use crate::files::{Rows, input_name};
 use crate::rows::counts::StatusCounts;
 use anyhow::{Context, Result};
-use ccd_tables::courses::{CourseRow, MovementRows};
 use ccd_tables::motions::TableError;
+use ccd_tables::movements::{MovementRow, MovementRows};
 
 /// A table of queries, read row by row.
 pub(crate) trait RowSource: Iterator<Item = Result<Self::Row, TableError>> {
@@ -28,7 +28,7 @@ pub(crate) trait RowSource: Iterator<Item = Result<Self::Row, TableError>> {
 }
 
 impl RowSource for Rows {
-    type Row = CourseRow;
+    type Row = MovementRow;
 
     fn skip_rows(&mut self, count: usize) -> Result<usize, TableError> {
         MovementRows::skip_rows(self, count)
@@ -57,7 +57,7 @@ pub(crate) trait Batches<R> {
     /// The answers cannot be written.
     fn answer_and_write(&mut self, rows: &[R]) -> Result<(), OutputError>;
 
-    /// Returns the number of rows so far that could not be answered, and of those of each status.
+    /// Returns the number of rows so far that could not be answered, and the number of rows of each status.
     fn counts(&self) -> (usize, StatusCounts);
 
     /// Saves the answers, with the state of the run.
@@ -79,8 +79,8 @@ pub(crate) fn answer_in_batches<S: RowSource>(
     loop {
         let end = files.rows.end_row;
         let remaining = end.map_or(usize::MAX, |end| end.saturating_sub(done.rows));
-        let (batch, broken) = read_rows(source, run.row_count().min(remaining));
-        if batch.is_empty() && broken.is_none() {
+        let (batch, table_error) = read_rows(source, run.row_count().min(remaining));
+        if batch.is_empty() && table_error.is_none() {
             return Ok(done);
         }
         run.begin(batch.len(), source.consumed_bytes());
@@ -94,7 +94,7 @@ pub(crate) fn answer_in_batches<S: RowSource>(
             ..done
         };
         run.save(done)?;
-        if let Some(error) = broken {
+        if let Some(error) = table_error {
             return Err(error).with_context(|| input_name(files.input));
         }
     }
@@ -102,9 +102,9 @@ pub(crate) fn answer_in_batches<S: RowSource>(
 
 /// Reads up to `count` rows, and returns the error that ended the table early, if any.
 fn read_rows<S: RowSource>(source: &mut S, count: usize) -> (Vec<S::Row>, Option<TableError>) {
-    let mut broken = None;
-    let read = source
+    let mut table_error = None;
+    let rows = source
         .take(count)
-        .map_while(|row| row.map_err(|error| broken = Some(error)).ok());
-    (read.collect(), broken)
+        .map_while(|row| row.map_err(|error| table_error = Some(error)).ok());
+    (rows.collect(), table_error)
 }

@@ -1,7 +1,7 @@
 //! The journal of a run: its options, and a checkpoint after each batch of rows.
 //!
-//! The file is next to the tables. Each checkpoint ends with the checksum of all before it. The file stays when the run
-//! has finished, so that the same command with `--resume` finds nothing left to do.
+//! The file is next to the tables. Each checkpoint ends with the checksum of the journal up to there. The file stays
+//! when the run has finished, so that the same command with `--resume` finds nothing left to do.
 
 use crate::files::output::OutputError;
 use crate::files::table::LengthAndChecksum;
@@ -55,19 +55,19 @@ pub(crate) fn options_text(options: impl IntoIterator<Item = (String, String)>) 
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Returns the options of a command that determine its tables, with their values as given or by default. Options without a long
-/// name, such as a file that comes first, go by their ids.
+/// Returns the options of a command that determine its tables, with their given or default values. Options without a
+/// long name, such as positional files, are named by their ids.
 pub(crate) fn option_values<A: Args>(
-    given: &ArgMatches,
+    matches: &ArgMatches,
     unrecorded_ids: &[&str],
 ) -> Vec<(String, String)> {
-    let all = A::augment_args(Command::new("ccd"));
-    let options = all
+    let command = A::augment_args(Command::new("ccd"));
+    let options = command
         .get_arguments()
         .filter(|option| !unrecorded_ids.contains(&option.get_id().as_str()));
     let recorded = options.map(|option| {
         let id = option.get_id().as_str();
-        let values = given.get_raw(id).into_iter().flatten();
+        let values = matches.get_raw(id).into_iter().flatten();
         let values: Vec<_> = values.map(|value| value.to_string_lossy()).collect();
         let value = match values.join(",") {
             none if none.is_empty() => "not given".to_owned(),
@@ -87,11 +87,11 @@ impl Journal {
         from: Option<&Checkpoint>,
     ) -> Result<Self, OutputError> {
         let mut text = format!("{options}{CHECKPOINTS_HEADING}");
-        let mut sum = Hasher::new();
-        sum.update(text.as_bytes());
+        let mut checksum = Hasher::new();
+        checksum.update(text.as_bytes());
         let mut open = || {
             if let Some(from) = from {
-                text += &line(from, &mut sum)?;
+                text += &line(from, &mut checksum)?;
             }
             ccd_file::write(&path, |out| out.write_all(text.as_bytes()))?;
             File::options().append(true).open(&path)
@@ -100,7 +100,7 @@ impl Journal {
         Ok(Journal {
             path,
             file,
-            checksum_hasher: sum,
+            checksum_hasher: checksum,
         })
     }
 
@@ -113,11 +113,11 @@ impl Journal {
 }
 
 /// Formats a checkpoint as a line that ends with a checksum of the whole journal so far, and adds the line to `sum`.
-fn line(checkpoint: &Checkpoint, sum: &mut Hasher) -> io::Result<String> {
+fn line(checkpoint: &Checkpoint, checksum: &mut Hasher) -> io::Result<String> {
     let checkpoint = serde_json::to_string(checkpoint)?;
-    sum.update(checkpoint.as_bytes());
-    let end = format!(" {:08x}\n", sum.clone().finalize());
-    sum.update(end.as_bytes());
+    checksum.update(checkpoint.as_bytes());
+    let end = format!(" {:08x}\n", checksum.clone().finalize());
+    checksum.update(end.as_bytes());
     Ok(checkpoint + &end)
 }
 
@@ -144,34 +144,42 @@ impl EarlierRun {
             return Ok(None);
         };
         let complete = &text[..text.len() - incomplete.len() - 1];
-        let (before, sum) = complete.rsplit_once(' ').ok_or(JournalError)?;
-        if format!("{:08x}", crc32fast::hash(before.as_bytes())) != sum {
+        let (checked_text, checksum) = complete.rsplit_once(' ').ok_or(JournalError)?;
+        if format!("{:08x}", crc32fast::hash(checked_text.as_bytes())) != checksum {
             return Err(JournalError);
         }
         let last = checkpoints.lines().next_back().unwrap_or_default();
-        let checkpoint = last.strip_suffix(sum).unwrap_or_default();
+        let checkpoint = last.strip_suffix(checksum).unwrap_or_default();
         Ok(Some(EarlierRun {
             options: options.to_owned(),
             checkpoint: serde_json::from_str(checkpoint).map_err(|_| JournalError)?,
         }))
     }
 
-    /// Describes the options that differ from those of the earlier run; `None` if all are the same.
-    pub(crate) fn describe_changes(&self, now: &str) -> Option<String> {
-        if self.options == now {
+    /// Describes the options that differ from the options of the earlier run; `None` if all are the same.
+    pub(crate) fn describe_changes(&self, current_options: &str) -> Option<String> {
+        if self.options == current_options {
             return None;
         }
         let split = |line| str::split_once(line, ' ').unwrap_or((line, ""));
-        let [then, now] =
-            [&self.options, now].map(|text| text.lines().map(split).collect::<Vec<_>>());
-        let (version, known) = (then.first(), now.iter().map(|(option, _)| option));
-        if version != now.first() || !known.eq(then.iter().map(|(option, _)| option)) {
+        let [earlier_options, current_options] = [&self.options, current_options]
+            .map(|text| text.lines().map(split).collect::<Vec<_>>());
+        let (version, option_names) = (
+            earlier_options.first(),
+            current_options.iter().map(|(option, _)| option),
+        );
+        if version != current_options.first()
+            || !option_names.eq(earlier_options.iter().map(|(option, _)| option))
+        {
             return Some("another version of ccd wrote it".to_owned());
         }
         let mut changes = Vec::new();
-        for ((option, then), (_, now)) in then.iter().zip(&now).filter(|(then, now)| then != now) {
+        let pairs = earlier_options.iter().zip(&current_options);
+        for ((option, earlier), (_, current)) in
+            pairs.filter(|(earlier, current)| earlier != current)
+        {
             match option.strip_prefix(FILE_CHECKSUM_PREFIX) {
-                None => changes.push(format!("{option} was {then} and is now {now}")),
+                None => changes.push(format!("{option} was {earlier} and is now {current}")),
                 // A changed file name implies changed content, so one message is enough.
                 Some(_) if !changes.is_empty() => {}
                 Some(option) => changes.push(format!("the file of {option} has changed since")),

@@ -2,12 +2,11 @@
 
 use super::journal::Checkpoint;
 use super::run_files::RunFiles;
-use crate::console::RunOutcome;
-use crate::console::print_error;
+use crate::console::{RunOutcome, print_error};
 use crate::files::input_name;
 
-/// Returns how a run ended, and prints how many rows fail `--check`, if it is given. No row is no proof: with `--check` it is bad
-/// input.
+/// Returns how a run ended. With `--check`, prints how many rows are not proven, and takes a table without rows as bad input,
+/// because it proves nothing.
 pub(crate) fn report_outcome(files: &RunFiles<'_>, end: Checkpoint) -> RunOutcome {
     let rows = end.counts.row_count();
     let counts = end.counts.nonzero_counts();

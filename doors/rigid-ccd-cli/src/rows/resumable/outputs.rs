@@ -22,9 +22,9 @@ pub(crate) struct Outputs {
 
 /// The opened tables of a run; the variant says which rows are left to answer.
 pub(crate) enum OpenedTables {
-    /// New tables, or those of an interrupted run with the same options: the rows after its checkpoint are left.
+    /// New tables, or the tables of an interrupted run with the same options. The rows after its checkpoint are left to answer.
     Unfinished(Box<Outputs>, Option<Checkpoint>),
-    /// The tables of a finished run with the same options: no row is left.
+    /// The tables of a finished run with the same options. No row is left to answer.
     Finished(Checkpoint),
 }
 
@@ -37,23 +37,23 @@ pub(crate) struct ClaimedFiles {
 impl ClaimedFiles {
     /// Reserves the files of the table of results and, if `--contacts` is given, of the table of contacts.
     pub(crate) fn claim(files: &RunFiles<'_>) -> Result<Self> {
-        // One after the other, and none after one that another run has: else two runs could refuse each other.
+        // The first failure ends this: otherwise two runs that claim the same files could refuse each other.
         let results = Output::claim(files.out)?;
         let contacts = files.contacts.map(Output::claim_table).transpose()?;
-        let places = ClaimedFiles { results, contacts };
-        let streams = [Some(&places.results), places.contacts.as_ref()];
+        let claimed = ClaimedFiles { results, contacts };
+        let streams = [Some(&claimed.results), claimed.contacts.as_ref()];
         if files.resume && streams.into_iter().flatten().any(Output::is_stream) {
             bail!("--resume needs files; give --out (and --contacts) a file name");
         }
-        Ok(places)
+        Ok(claimed)
     }
 }
 
 impl OpenedTables {
-    /// Creates the tables, or opens those of an earlier run with the same options.
-    pub(crate) fn new(files: &RunFiles<'_>, places: ClaimedFiles, options: &str) -> Result<Self> {
-        let Some(results) = &places.results.reserved_file else {
-            let outputs = Outputs::create(files, places, options, None)?;
+    /// Creates the tables, or opens the tables of an earlier run with the same options.
+    pub(crate) fn new(files: &RunFiles<'_>, claimed: ClaimedFiles, options: &str) -> Result<Self> {
+        let Some(results) = &claimed.results.reserved_file else {
+            let outputs = Outputs::create(files, claimed, options, None)?;
             return Ok(OpenedTables::Unfinished(Box::new(outputs), None));
         };
         let journal = results.sibling(JOURNAL_EXTENSION);
@@ -67,17 +67,17 @@ impl OpenedTables {
             ),
             Err(JournalError) => None,
         };
-        let mut places = places;
+        let mut claimed = claimed;
         if files.resume
             && let Some(finished) = &earlier
             && finished.checkpoint.finished
         {
-            if places.rename_finished_tables(finished, options)? {
+            if claimed.rename_finished_tables(finished, options)? {
                 return Ok(OpenedTables::Finished(finished.checkpoint));
             }
-            places = ClaimedFiles::claim(files)?;
+            claimed = ClaimedFiles::claim(files)?;
         }
-        places.create_or_resume_tables(files, options, (earlier, journal))
+        claimed.create_or_resume_tables(files, options, (earlier, journal))
     }
 }
 
@@ -89,12 +89,12 @@ impl ClaimedFiles {
         options: &str,
         (earlier, journal): (Option<EarlierRun>, PathBuf),
     ) -> Result<OpenedTables> {
-        let left = self
+        let partial_results = self
             .results
             .reserved_file
             .as_ref()
             .filter(|results| results.initial_length() > 0);
-        match earlier.zip(left) {
+        match earlier.zip(partial_results) {
             Some((earlier, results)) if files.resume => {
                 let rows = results.partial_path().display().to_string();
                 let advice = format!("delete {rows} to start over");
@@ -139,7 +139,7 @@ fn rename_complete_table(table: Output, written: LengthAndChecksum) -> Result<bo
         return Ok(true);
     };
     let target = claim.target().to_owned();
-    let name_it = || {
+    let rename_and_check = || {
         if claim.initial_length() == written.bytes
             && measure_beginning(claim.file(), u64::MAX)?.length_and_checksum() == written
         {
@@ -148,20 +148,20 @@ fn rename_complete_table(table: Output, written: LengthAndChecksum) -> Result<bo
         if !target.exists() {
             return Ok(None);
         }
-        let found = measure_beginning(File::open(&target)?, u64::MAX)?;
-        Ok(Some(found.length_and_checksum() == written))
+        let measured = measure_beginning(File::open(&target)?, u64::MAX)?;
+        Ok(Some(measured.length_and_checksum() == written))
     };
-    match name_it().map_err(|source| OutputError::error_for_path(&target, source))? {
+    match rename_and_check().map_err(|source| OutputError::error_for_path(&target, source))? {
         Some(false) => bail!(
             "--resume: {} has changed since the run finished; omit --resume to start over and \
              overwrite it",
             target.display()
         ),
-        there => Ok(there.is_some()),
+        unchanged => Ok(unchanged.is_some()),
     }
 }
 
-/// Returns an error if the options differ from those of the earlier run.
+/// Returns an error if the options differ from the options of the earlier run.
 fn refuse_changed_options(
     earlier: &EarlierRun,
     options: &str,
@@ -178,22 +178,22 @@ fn refuse_changed_options(
 
 impl Outputs {
     fn resume(
-        places: ClaimedFiles,
+        claimed: ClaimedFiles,
         from: &Checkpoint,
         options: &str,
         journal: PathBuf,
     ) -> Result<Self> {
-        let contacts = (places.contacts).map(|table| resume_table(table, from.contacts));
+        let contacts = (claimed.contacts).map(|table| resume_table(table, from.contacts));
         Ok(Outputs {
             contacts: contacts.transpose()?,
-            results: resume_table(places.results, from.results)?,
+            results: resume_table(claimed.results, from.results)?,
             journal: Some(Journal::start(journal, options, Some(from))?),
         })
     }
 
     fn create(
         files: &RunFiles<'_>,
-        places: ClaimedFiles,
+        claimed: ClaimedFiles,
         options: &str,
         journal: Option<PathBuf>,
     ) -> Result<Self, OutputError> {
@@ -201,9 +201,9 @@ impl Outputs {
         let journal = journal
             .map(|path| Journal::start(path, options, None))
             .transpose()?;
-        let results = TableWriter::start(places.results, &files.header)?;
+        let results = TableWriter::start(claimed.results, &files.header)?;
         let header = names(&contacts::columns());
-        let contacts = (places.contacts).map(|place| TableWriter::start(place, &header));
+        let contacts = (claimed.contacts).map(|place| TableWriter::start(place, &header));
         Ok(Outputs {
             results,
             contacts: contacts.transpose()?,

@@ -27,8 +27,8 @@ pub(crate) fn skip_rows(
     earlier: Option<Checkpoint>,
 ) -> Result<Checkpoint> {
     let input = || input_name(files.input);
-    let wanted = earlier.map_or(files.rows.start, |earlier| earlier.rows);
-    let skipped = source.skip_rows(wanted).with_context(input)?;
+    let count = earlier.map_or(files.rows.start, |earlier| earlier.rows);
+    let skipped = source.skip_rows(count).with_context(input)?;
     let checksum = source.checksum();
     match earlier {
         Some(earlier) if (skipped, checksum) != (earlier.rows, earlier.checksum) => bail!(
@@ -46,7 +46,7 @@ pub(crate) fn skip_rows(
     }
 }
 
-/// Refuses an input that is not the one of a finished run, and prints that nothing is left to do.
+/// Refuses a table that differs from the table of a finished run; for the same table, prints that nothing is left to do.
 pub(crate) fn check_finished(
     files: &RunFiles<'_>,
     source: &mut impl RowSource,
@@ -54,9 +54,9 @@ pub(crate) fn check_finished(
 ) -> Result<()> {
     let (input, out) = (input_name(files.input), files.out.display());
     let skipped = source.skip_rows(end.rows).with_context(|| input.clone())?;
-    let same = (skipped, source.checksum()) == (end.rows, end.checksum);
-    let more = files.rows.end_row.is_none_or(|last| end.rows < last);
-    if !same || more && source.skip_rows(1).with_context(|| input.clone())? > 0 {
+    let is_same_table = (skipped, source.checksum()) == (end.rows, end.checksum);
+    let may_have_more = files.rows.end_row.is_none_or(|last| end.rows < last);
+    if !is_same_table || may_have_more && source.skip_rows(1).with_context(|| input.clone())? > 0 {
         bail!(
             "--resume: {input}: not the rows of the finished run; give the same table, or omit \
              --resume to start over"

@@ -1,7 +1,7 @@
 //! Tests which headers are refused, and that files of other formats are recognised.
 
 use super::*;
-use crate::courses::MovementRows;
+use crate::movements::MovementRows;
 use crate::paths::Grouping;
 
 #[test]

@@ -36,7 +36,7 @@ impl Movements {
         }
     }
 
-    /// Returns the paths of both bodies; `None` for motions, whose times are those of the table.
+    /// Returns the paths of both bodies; `None` for motions, whose times need no conversion to the table's.
     fn path(&self) -> Option<&PathPair> {
         match self {
             Movements::Motions(_) => None,
@@ -91,7 +91,7 @@ pub struct MovementRows<S> {
 }
 
 /// The motions or paths of a query with its position in the table, or the error of a bad row.
-pub type CourseRow = Result<(RowPosition, Movements), RowError>;
+pub type MovementRow = Result<(RowPosition, Movements), RowError>;
 
 impl<R: io::Read> MovementRows<CsvRecords<R>> {
     /// Creates the iterator, and reads the header of a CSV table.
@@ -138,8 +138,10 @@ impl<S: Records> MovementRows<S> {
 
     /// Returns the number of bytes of the input up to the end of the last row, or of the last path.
     pub fn consumed_bytes(&self) -> u64 {
-        let of_paths = self.path_reader.as_ref().map(|paths| paths.byte_count);
-        of_paths.unwrap_or_else(|| self.rows.consumed_bytes())
+        match &self.path_reader {
+            Some(paths) => paths.byte_count,
+            None => self.rows.consumed_bytes(),
+        }
     }
 
     /// Returns the remarks about the rows so far, one of each kind.
@@ -149,11 +151,13 @@ impl<S: Records> MovementRows<S> {
 
     /// Returns a checksum of the header and of all rows so far.
     pub fn checksum(&self) -> u32 {
-        let of_paths = self.path_reader.as_ref().map(|paths| paths.checksum);
-        of_paths.unwrap_or_else(|| self.rows.checksum())
+        match &self.path_reader {
+            Some(paths) => paths.checksum,
+            None => self.rows.checksum(),
+        }
     }
 
-    fn read(&mut self) -> Result<Option<CourseRow>, TableError> {
+    fn read(&mut self) -> Result<Option<MovementRow>, TableError> {
         Ok(match &mut self.path_reader {
             None => (self.rows.next().transpose()?)
                 .map(|row| row.map(|(position, motions)| (position, Movements::Motions(motions)))),
@@ -164,7 +168,7 @@ impl<S: Records> MovementRows<S> {
 }
 
 impl<S: Records> Iterator for MovementRows<S> {
-    type Item = Result<CourseRow, TableError>;
+    type Item = Result<MovementRow, TableError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         self.read().transpose()

@@ -1,7 +1,7 @@
 //! Converts the motions or paths of a row to the motions that a page shows.
 
 use ccd_core::{InputError, Trajectory};
-use ccd_tables::courses::Movements;
+use ccd_tables::movements::Movements;
 use ccd_view::{Keyframe, ShownMotion};
 
 /// Returns the motions of both bodies in the form for a page: a path becomes keyframes, one for each pose.
@@ -20,10 +20,10 @@ pub fn shown_motions(movements: &Movements) -> Result<[ShownMotion; 2], InputErr
         let keys = poses
             .times()
             .zip(poses.rotation_vectors())
-            .map(|(time, turn)| {
-                let (pose, turn) = (poses.pose(time)?, turn?);
-                let place = pose.transform_point(center);
-                Ok(Keyframe::new(time, &pose, place, turn))
+            .map(|(time, rotation_vector)| {
+                let (pose, rotation_vector) = (poses.pose(time)?, rotation_vector?);
+                let center_position = pose.transform_point(center);
+                Ok(Keyframe::new(time, &pose, center_position, rotation_vector))
             });
         Ok(ShownMotion::Keyframes {
             center: center.to_array(),
