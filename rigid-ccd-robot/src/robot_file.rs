@@ -187,11 +187,8 @@ impl RobotFile {
             None => LinkPairs::from_robot(robot),
         };
         if let Some(file) = srdf {
-            let srdf = Srdf::from_text(&read(file)?).map_err(|error| RobotFileError::Srdf {
-                file: file.to_owned(),
-                error,
-            })?;
-            srdf.apply(robot, &mut pairs)
+            Srdf::from_text(&read(file)?)
+                .and_then(|srdf| srdf.apply(robot, &mut pairs))
                 .map_err(|error| RobotFileError::Srdf {
                     file: file.to_owned(),
                     error,
@@ -249,6 +246,12 @@ fn robot_name(text: &str) -> String {
     name.unwrap_or_default()
 }
 
+/// Parses an XML text. A document type definition is an error.
+fn parse_xml(text: &str) -> Result<Document<'_>, String> {
+    Document::parse(text).map_err(|error| error.to_string())
+}
+
+/// Reads a text file.
 fn read(file: &Path) -> Result<String, RobotFileError> {
     ccd_file::read_to_string(file).map_err(|error| RobotFileError::Unreadable {
         file: file.to_owned(),

@@ -9,10 +9,11 @@ use super::body_elements::BodyElements;
 use super::error::RobotFileError;
 use super::meshes::MeshBodies;
 use super::packages::SearchFolders;
+use super::parse_xml;
 use super::urdf_error::UrdfError;
 use crate::remark::CellRemark;
 use crate::robot::{CompoundKind, Joint, Link, LinkBody, PositionRule, Robot};
-use element::{Element, only, parse, required, with_declared_prefixes};
+use element::{Element, only, required, with_declared_prefixes};
 use rigid_ccd::glam::{DAffine3, DQuat, DVec3, EulerRot};
 use rigid_ccd::{Body, Pose, Remark, trajectory};
 use std::sync::Arc;
@@ -54,7 +55,7 @@ impl<'r> UrdfReader<'r> {
     /// Reads the text of a URDF. The outer error is a syntax error.
     pub(super) fn read(mut self, text: &str) -> Result<Result<Robot, RobotFileError>, String> {
         let text = with_declared_prefixes(text)?;
-        let document = parse(&text)?;
+        let document = parse_xml(&text)?;
         Ok(Element::root(&document)
             .map_err(RobotFileError::from)
             .and_then(|root| self.robot(&root)))
@@ -67,10 +68,10 @@ impl<'r> UrdfReader<'r> {
             let name = element.required("name")?;
             if element.name() == "link" {
                 let link = self.link(&element, name);
-                links.push(link.map_err(|error| error.with_link_name(name))?);
+                links.push(link.map_err(|error| error.within("link", name))?);
             } else {
                 let joint = self.joint(&element, name);
-                joints.push(joint.map_err(|error| error.with_joint_name(name))?);
+                joints.push(joint.map_err(|error| error.within("joint", name))?);
             }
         }
         let mut all_joints = Vec::new();

@@ -44,13 +44,9 @@ pub(super) fn read_assets(root: &Element, classes: &Classes) -> Result<Assets, M
         height_fields: HashMap::new(),
     };
     for element in children_of_sections(root, "asset") {
-        match element.name.as_str() {
-            "mesh" | "hfield" => {}
-            // Images and decorations.
-            "material" | "skin" | "texture" => continue,
-            // A model that other models may attach. `attach` itself is refused elsewhere.
-            "model" => continue,
-            _ => return Err(element.unknown_in("asset")),
+        // Other assets are images, decorations, and models for `attach`, which is not supported.
+        if !["mesh", "hfield"].contains(&element.name.as_str()) {
+            continue;
         }
         let own = classes.merged(element, None)?;
         let file = own.name("file");

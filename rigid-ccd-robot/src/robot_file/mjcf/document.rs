@@ -3,7 +3,8 @@
 use super::attributes::Attributes;
 use crate::robot_file::error::RobotFileError;
 use crate::robot_file::mjcf_error::MjcfError;
-use roxmltree::{Document, Node, ParsingOptions};
+use crate::robot_file::{parse_xml, read};
+use roxmltree::Node;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
@@ -49,14 +50,6 @@ pub(super) fn parse(text: &str, folder: &Path) -> Result<Element, RobotFileError
     let document = parse_xml(text).map_err(|error| MjcfError::Syntax { error })?;
     let mut elements = reader.elements(document.root_element(), 0)?;
     Ok(elements.swap_remove(0))
-}
-
-fn parse_xml(text: &str) -> Result<Document<'_>, String> {
-    let options = ParsingOptions {
-        allow_dtd: false,
-        ..ParsingOptions::default()
-    };
-    Document::parse_with_options(text, options).map_err(|error| error.to_string())
 }
 
 /// Rejects names with a namespace prefix, such as `x:geom`. MJCF has none.
@@ -114,11 +107,7 @@ impl Reader<'_> {
             if !self.included.insert(file.clone()) {
                 return Err(MjcfError::repeated_name("include", name).into());
             }
-            let text =
-                ccd_file::read_to_string(&file).map_err(|error| RobotFileError::Unreadable {
-                    file: file.clone(),
-                    error: error.to_string(),
-                })?;
+            let text = read(&file)?;
             let document =
                 parse_xml(&text).map_err(|error| RobotFileError::Syntax { file, error })?;
             return self.children(document.root_element(), depth + 1);

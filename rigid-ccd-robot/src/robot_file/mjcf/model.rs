@@ -22,22 +22,6 @@ pub(in crate::robot_file) struct MjcfModel {
     constraints: Vec<Attributes>,
 }
 
-/// Sections that are unrelated to shapes, joints and pairs, or that other modules read.
-const OTHER_SECTIONS: [&str; 12] = [
-    "actuator",
-    "asset",
-    "compiler",
-    "custom",
-    "default",
-    "extension",
-    "keyframe",
-    "option",
-    "sensor",
-    "size",
-    "statistic",
-    "visual",
-];
-
 impl MjcfModel {
     /// Parses the text of a file. Included files are relative to a folder.
     pub(in crate::robot_file) fn from_text(
@@ -69,10 +53,9 @@ impl MjcfModel {
                         }
                     }
                 }
-                // A tendon is not a shape. It may couple two joints; they are treated as independent.
-                "worldbody" | "tendon" => {}
-                other if OTHER_SECTIONS.contains(&other) => {}
-                _ => return Err(section.unknown_in("mujoco").into()),
+                // Other modules read the other sections, or they are unrelated to shapes, joints and pairs. A tendon
+                // may couple two joints, which are treated as independent.
+                _ => {}
             }
         }
         let bodies = read_bodies(&root, &settings, &classes)?;

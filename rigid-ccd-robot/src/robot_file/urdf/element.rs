@@ -1,9 +1,10 @@
 //! URDF elements whose attributes and children are validated.
 
-use super::vocabulary::{Vocabulary, vocabulary_of};
+use super::vocabulary::{Vocabulary, contains, vocabulary_of};
 use crate::remark::CellRemark;
+use crate::robot_file::parse_xml;
 use crate::robot_file::urdf_error::UrdfError;
-use roxmltree::{Document, Error, Node, ParsingOptions};
+use roxmltree::{Document, Error, Node};
 
 /// The namespace prefix of elements that xacro has to expand before the file is a URDF.
 const XACRO: &str = "xacro";
@@ -30,12 +31,7 @@ pub(super) fn with_declared_prefixes(text: &str) -> Result<String, String> {
         };
         text = text.replacen("<robot", &format!("<robot xmlns:{prefix}=\"{prefix}\""), 1);
     }
-    parse(&text).map(|_| String::new())
-}
-
-/// Parses an XML text.
-pub(super) fn parse(text: &str) -> Result<Document<'_>, String> {
-    Document::parse_with_options(text, ParsingOptions::default()).map_err(|error| error.to_string())
+    parse_xml(&text).map(|_| String::new())
 }
 
 impl<'t> Element<'t> {
@@ -73,7 +69,7 @@ impl<'t> Element<'t> {
             }
             // Attributes with a prefix belong to other programs.
             let is_known = attribute.namespace().is_some()
-                || vocabulary.attributes.contains(&attribute.name());
+                || contains(vocabulary.attributes, attribute.name());
             if !is_known {
                 return Err(UrdfError::UnknownAttribute {
                     element: name.to_owned(),
@@ -97,13 +93,13 @@ impl<'t> Element<'t> {
         let mut read = Vec::new();
         for child in self.node.children().filter(Node::is_element) {
             let name = child.tag_name().name();
-            if prefix(child).is_some() || self.vocabulary.left_out.contains(&name) {
+            if prefix(child).is_some() || contains(self.vocabulary.left_out, name) {
                 remarks.push(CellRemark::left_out(format!(
                     "{} in {}",
                     qualified_name(child),
                     self.label()
                 )));
-            } else if !self.vocabulary.harmless.contains(&name) {
+            } else if !contains(self.vocabulary.harmless, name) {
                 read.push(Element::new(child, self.name())?);
             }
         }
