@@ -50,7 +50,7 @@ impl MjcfModel {
         for body in &self.bodies {
             let mut link = Link::named(&body.name);
             let added = geoms.add_to(&mut link, body);
-            added.map_err(|error| error.with_link_name(&body.name))?;
+            added.map_err(|error| error.within("link", &body.name))?;
             links.push(link);
             let (between, own) = joints_of_bodies.joints(body)?;
             links.extend(between);

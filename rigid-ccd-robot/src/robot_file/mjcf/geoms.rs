@@ -2,7 +2,7 @@
 
 use super::assets::MeshSource;
 use super::bodies::{MjcfBody, MjcfGeom};
-use super::height_fields::HeightField;
+use super::height_fields::height_field_mesh;
 use super::model::MjcfModel;
 use super::orientation::rotation_of_z_to;
 use crate::robot::{Link, LinkBody};
@@ -37,7 +37,7 @@ impl GeomReader<'_> {
                 let name = geom
                     .name()
                     .map_or_else(|| number.to_string(), str::to_owned);
-                error.with_geom_name(&name)
+                error.within("geom", &name)
             })?;
         }
         Ok(())
@@ -101,7 +101,7 @@ impl GeomReader<'_> {
             return Err(MjcfError::unknown_name("hfield", name).into());
         };
         let file = own.name("file").map(|uri| self.file(uri)).transpose()?;
-        let mesh = HeightField::read(own, file.as_deref())?.mesh()?;
+        let mesh = height_field_mesh(own, file.as_deref())?;
         self.meshes.body_of_height_field(&mesh, name)
     }
 

@@ -12,16 +12,12 @@ use std::collections::HashMap;
 /// Converts the joints of a model.
 pub(super) struct JointReader<'r> {
     mjcf: &'r MjcfModel,
-    /// For each joint that follows another one, by name, the joint that it follows and the function.
-    followers: HashMap<&'r str, Follower<'r>>,
+    /// The rules of the joints that follow another one, by name.
+    mimic_rules: MimicRules<'r>,
 }
 
-/// The linear function by which a joint follows another one.
-struct Follower<'r> {
-    leader: &'r str,
-    multiplier: f64,
-    offset: f64,
-}
+/// For each joint that follows another one, by name, the rule with which it does.
+type MimicRules<'r> = HashMap<&'r str, PositionRule>;
 
 /// The chain of joints between a body and its parent, while it is built.
 struct Chain<'r> {
@@ -40,7 +36,7 @@ impl<'r> JointReader<'r> {
     pub(super) fn new(mjcf: &'r MjcfModel) -> Result<Self, MjcfError> {
         Ok(JointReader {
             mjcf,
-            followers: read_followers(mjcf)?,
+            mimic_rules: read_mimic_rules(mjcf)?,
         })
     }
 
@@ -69,7 +65,7 @@ impl<'r> JointReader<'r> {
                 format!("{name}/{}", joint.name)
             };
             self.add_joint(&mut chain, joint, child)
-                .map_err(|error| RobotFileError::from(error).with_joint_name(&joint.name))?;
+                .map_err(|error| RobotFileError::from(error).within("joint", &joint.name))?;
         }
         if chain.at != *name {
             let fixed = trajectory::Joint::fixed(chain.frame);
@@ -130,14 +126,8 @@ impl<'r> JointReader<'r> {
     }
 
     fn position_rule(&self, joint: &str) -> PositionRule {
-        match self.followers.get(joint) {
-            None => PositionRule::Independent,
-            Some(follower) => PositionRule::Follows {
-                joint: follower.leader.to_owned(),
-                multiplier: follower.multiplier,
-                offset: follower.offset,
-            },
-        }
+        let rule = self.mimic_rules.get(joint).cloned();
+        rule.unwrap_or(PositionRule::Independent)
     }
 }
 
@@ -204,48 +194,50 @@ impl Chain<'_> {
 
 /// Reads the equality constraints that make a joint a linear function of another one. The first valid one of each
 /// joint applies. A constraint that would close a loop is ignored.
-fn read_followers(mjcf: &MjcfModel) -> Result<HashMap<&str, Follower<'_>>, MjcfError> {
+fn read_mimic_rules(mjcf: &MjcfModel) -> Result<MimicRules<'_>, MjcfError> {
     let joints = mjcf.bodies.iter().flat_map(|body| &body.joints);
-    let joints: HashMap<&str, &MjcfJoint> = joints.map(|own| (own.name.as_str(), own)).collect();
-    let mut followers: HashMap<&str, Follower<'_>> = HashMap::new();
-    for own in mjcf.constraints_named("joint") {
+    let joints: HashMap<&str, &MjcfJoint> =
+        joints.map(|joint| (joint.name.as_str(), joint)).collect();
+    let mut rules = MimicRules::new();
+    for constraint in mjcf.constraints_named("joint") {
         let find = |name: &str| {
             let joint = joints.get(name).copied();
             joint.ok_or_else(|| MjcfError::unknown_name("joint", name))
         };
-        let joint = find(own.required_name("joint1")?)?;
-        let Some(leader) = own.name("joint2").map(find).transpose()? else {
+        let joint = find(constraint.required_name("joint1")?)?;
+        let Some(leader) = constraint.name("joint2").map(find).transpose()? else {
             continue;
         };
         // The default coefficients make both positions equal.
         let mut coefficients = [0.0, 1.0, 0.0, 0.0, 0.0];
-        let given = own.numbers("polycoef")?.unwrap_or_default();
-        if given.len() > coefficients.len() {
-            return Err(own.invalid("polycoef"));
+        let polynomial = constraint.numbers("polycoef")?.unwrap_or_default();
+        if polynomial.len() > coefficients.len() {
+            return Err(constraint.invalid("polycoef"));
         }
-        coefficients[..given.len()].copy_from_slice(&given);
+        coefficients[..polynomial.len()].copy_from_slice(&polynomial);
         let [constant, multiplier, ref higher @ ..] = coefficients;
-        let is_linear = higher.iter().all(|&own| own == 0.0);
-        let have_one = joint.kind.has_one_position() && leader.kind.has_one_position();
-        let is_active = own.truth_or("active", true)?;
-        if is_active && is_linear && have_one && !follows(&followers, &leader.name, &joint.name) {
-            followers.entry(&joint.name).or_insert(Follower {
-                leader: &leader.name,
+        let is_linear = higher.iter().all(|&coefficient| coefficient == 0.0);
+        let has_one_position = joint.kind.has_one_position() && leader.kind.has_one_position();
+        let is_active = constraint.truth_or("active", true)?;
+        let applies = is_active && is_linear && has_one_position;
+        if applies && !follows(&rules, &leader.name, &joint.name) {
+            rules.entry(&joint.name).or_insert(PositionRule::Follows {
+                joint: leader.name.clone(),
                 multiplier,
                 offset: joint.reference + constant - multiplier * leader.reference,
             });
         }
     }
-    Ok(followers)
+    Ok(rules)
 }
 
 /// Returns whether a joint is `other` or follows it directly or indirectly.
-fn follows(followers: &HashMap<&str, Follower<'_>>, joint: &str, other: &str) -> bool {
-    let mut at = joint;
-    while at != other {
-        match followers.get(at) {
-            Some(follower) => at = follower.leader,
-            None => return false,
+fn follows(rules: &MimicRules<'_>, joint: &str, other: &str) -> bool {
+    let mut followed = joint;
+    while followed != other {
+        match rules.get(followed) {
+            Some(PositionRule::Follows { joint, .. }) => followed = joint,
+            _ => return false,
         }
     }
     true
