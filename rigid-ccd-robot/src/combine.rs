@@ -76,40 +76,36 @@ impl Robot {
         let mut base_links = Vec::new();
         for placed in robots {
             let carrier = placed.carrier.unwrap_or(&world);
-            let (own_links, own_joints) = placed.base_joints(carrier)?;
-            base_links.extend(own_links);
-            joints.extend(own_joints);
+            let (links_of_base, joints_of_base) = placed.base_joints(carrier)?;
+            base_links.extend(links_of_base);
+            joints.extend(joints_of_base);
             first_links.push(links.len());
             links.extend(placed.robot.links().iter().map(|link| Link {
                 name: placed.prefixed(&link.name),
                 bodies: link.bodies.clone(),
                 planes: link.planes.clone(),
             }));
-            joints.extend(
-                placed
-                    .robot
-                    .joints()
-                    .iter()
-                    .map(|joint| placed.joint(joint)),
-            );
+            let robot_joints = placed.robot.joints().iter();
+            joints.extend(robot_joints.map(|joint| placed.with_prefixed_names(joint)));
         }
         links.extend(base_links);
         let remarks = robots.iter().flat_map(|placed| {
-            let own = placed.robot.file_remarks().iter();
-            own.map(|remark| remark.with_robot_name(|name| placed.prefixed(name)))
+            let remarks = placed.robot.file_remarks().iter();
+            remarks.map(|remark| remark.with_robot_name(|name| placed.prefixed(name)))
         });
         let combined = Robot::new(links, joints)?.with_file_remarks(remarks);
         let mut pairs = LinkPairs::from_robot(&combined);
         for (placed, first) in robots.iter().zip(first_links) {
-            let own = first..first + placed.robot.links().len();
-            if !pairs.replace_within(own, placed.pairs) {
+            let links_of_robot = first..first + placed.robot.links().len();
+            if !pairs.replace_within(links_of_robot, placed.pairs) {
                 return Err(RobotError::PairsOfAnotherRobot {
                     robot: placed.name.to_owned(),
                 });
             }
-            let own = placed.pairs.file_remarks().iter();
-            pairs
-                .add_file_remarks(own.map(|own| own.with_robot_name(|name| placed.prefixed(name))));
+            let remarks = placed.pairs.file_remarks().iter();
+            pairs.add_file_remarks(
+                remarks.map(|remark| remark.with_robot_name(|name| placed.prefixed(name))),
+            );
         }
         Ok((combined, pairs))
     }
@@ -125,7 +121,7 @@ impl PlacedRobot<'_> {
     fn prefixed(&self, name: &str) -> String {
         match self.name {
             "" => name.to_owned(),
-            own => format!("{own}/{name}"),
+            robot => format!("{robot}/{name}"),
         }
     }
 
@@ -133,13 +129,8 @@ impl PlacedRobot<'_> {
     fn base_joints(&self, carrier: &str) -> Result<(Vec<Link>, Vec<Joint>), RobotError> {
         let base = self.prefixed(&self.robot.links()[self.robot.base()].name);
         let mut name = self.prefixed("base");
-        let has_joint = |name: &String| {
-            let joints = self.robot.joints().iter();
-            joints
-                .map(|joint| self.prefixed(&joint.name))
-                .any(|own| own == *name)
-        };
-        while has_joint(&name) {
+        let joints = || self.robot.joints().iter();
+        while joints().any(|joint| self.prefixed(&joint.name) == name) {
             name.push('_');
         }
         if let Some(kind) = self.base_motion {
@@ -156,25 +147,18 @@ impl PlacedRobot<'_> {
     }
 
     /// Returns a joint of the robot with all names prefixed.
-    fn joint(&self, joint: &Joint) -> Joint {
-        Joint {
-            name: self.prefixed(&joint.name),
-            parent: self.prefixed(&joint.parent),
-            child: self.prefixed(&joint.child),
-            geometry: joint.geometry.clone(),
-            position_rule: match &joint.position_rule {
-                PositionRule::Independent => PositionRule::Independent,
-                PositionRule::Follows {
-                    joint,
-                    multiplier,
-                    offset,
-                } => PositionRule::Follows {
-                    joint: self.prefixed(joint),
-                    multiplier: *multiplier,
-                    offset: *offset,
-                },
-            },
+    fn with_prefixed_names(&self, joint: &Joint) -> Joint {
+        let mut joint = joint.clone();
+        for name in [&mut joint.name, &mut joint.parent, &mut joint.child] {
+            *name = self.prefixed(name);
         }
+        if let PositionRule::Follows {
+            joint: followed, ..
+        } = &mut joint.position_rule
+        {
+            *followed = self.prefixed(followed);
+        }
+        joint
     }
 }
 
