@@ -108,15 +108,12 @@ impl Cell {
         };
         for link in 0..cell.robot.links().len() {
             for body in cell.robot.links()[link].bodies.clone() {
-                cell.add_robot_body(
-                    body.body,
-                    RobotBodyPlacement::for_link_body(link, body.pose),
-                );
+                cell.add_to_robot(Some(body.body), (link, body.pose), None);
             }
         }
         for link in 0..cell.robot.links().len() {
             for plane in cell.robot.links()[link].planes.clone() {
-                cell.add_link_plane(RobotBodyPlacement::for_link_body(link, plane));
+                cell.add_to_robot(None, (link, plane), None);
             }
         }
         cell
@@ -186,13 +183,8 @@ impl Cell {
         let name = name.into();
         self.check_new_name(&name)?;
         RobotError::check_pose("attached body", &name, &pose)?;
-        let placement = RobotBodyPlacement {
-            link,
-            pose_in_link: pose,
-            attached_name: Some(name),
-        };
         let index = self.robot_body_placements.len();
-        self.add_robot_body(body.into(), placement);
+        self.add_to_robot(Some(body.into()), (link, pose), Some(name));
         self.allow_contacts_of_attached(index, &may_touch);
         Ok(())
     }
@@ -255,21 +247,18 @@ impl Cell {
         &self,
         configuration: &[f64],
     ) -> Result<Vec<(Item<'_>, &Body, Pose)>, RobotError> {
-        let robot_bodies = self.robot_body_placements.iter().map(|placement| {
-            let link = self
-                .robot
-                .pose(&self.robot.links()[placement.link].name, configuration)?;
-            Ok::<Pose, RobotError>(link.compose(&placement.pose_in_link))
+        let bodies = self.carried_bodies().map(|carried| {
+            let pose = match carried.item {
+                Item::Obstacle(_) => carried.pose,
+                Item::Link(_) | Item::Attached(_) => {
+                    let link = &self.robot.links()[carried.link].name;
+                    let link_pose = self.robot.pose(link, configuration)?;
+                    link_pose.compose(&carried.pose)
+                }
+            };
+            Ok((carried.item, carried.body, pose))
         });
-        let obstacles = self.bodies[self.robot_body_count()..]
-            .iter()
-            .map(|placed| Ok(placed.pose));
-        let poses = robot_bodies.chain(obstacles).enumerate();
-        let placed = poses.map(|(index, pose)| {
-            let body: &Body = &self.bodies[index].body;
-            Ok((self.item_of_body(index), body, pose?))
-        });
-        placed.collect()
+        bodies.collect()
     }
 
     /// Returns all bodies, each with the link that carries it. The order is that of [`Cell::placed_bodies`].
@@ -335,13 +324,25 @@ impl Cell {
         }
     }
 
-    /// Adds a body that the robot carries.
-    fn add_robot_body(&mut self, body: Arc<Body>, placement: RobotBodyPlacement) {
-        let (frame, link_pose) = self.kinematics.link_frame_and_pose(placement.link);
-        let pose = link_pose.compose(&placement.pose_in_link);
-        let placed = PlacedBody::new(body, pose, frame, MAX_LINK_PARTS);
+    /// Adds a body that is fixed to a link, or the plane of a static link if `body` is `None`.
+    fn add_to_robot(
+        &mut self,
+        body: Option<Arc<Body>>,
+        (link, pose_in_link): (usize, Pose),
+        attached_name: Option<String>,
+    ) {
+        let (frame, link_pose) = self.kinematics.link_frame_and_pose(link);
+        let pose = link_pose.compose(&pose_in_link);
+        let placed = match body {
+            Some(body) => PlacedBody::new(body, pose, frame, MAX_LINK_PARTS),
+            None => PlacedBody::for_plane(pose, self.plane_reach()),
+        };
         let index = self.robot_body_placements.len();
-        self.robot_body_placements.push(placement);
+        self.robot_body_placements.push(RobotBodyPlacement {
+            link,
+            pose_in_link,
+            attached_name,
+        });
         self.robot_part_count += self.insert(index, placed);
         self.fit_planes();
     }
@@ -409,16 +410,6 @@ impl Cell {
             |placement: &RobotBodyPlacement| placement.attached_name.as_deref() == Some(name);
         let index = self.robot_body_placements.iter().position(has_name);
         index.ok_or_else(|| RobotError::NoSuchAttachedBody { name: name.into() })
-    }
-}
-
-impl RobotBodyPlacement {
-    fn for_link_body(link: usize, pose: Pose) -> Self {
-        RobotBodyPlacement {
-            link,
-            pose_in_link: pose,
-            attached_name: None,
-        }
     }
 }
 

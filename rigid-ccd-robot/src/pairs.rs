@@ -58,13 +58,13 @@ impl LinkPairs {
     /// Excludes a pair, for a reason. If the pair is already excluded, its old reason stays.
     pub fn skip(&mut self, one: usize, other: usize, reason: SkipReason) {
         self.skip_reasons
-            .entry(ordered_pair(one, other))
+            .entry(ordered_pair([one, other]))
             .or_insert(reason);
     }
 
     /// Includes a pair that was excluded.
     pub fn include(&mut self, one: usize, other: usize) {
-        self.skip_reasons.remove(&ordered_pair(one, other));
+        self.skip_reasons.remove(&ordered_pair([one, other]));
     }
 
     /// Returns whether a pair of different links is checked.
@@ -84,7 +84,7 @@ impl LinkPairs {
 
     /// Returns the reason why a pair is not checked; `None` if it is checked.
     pub fn skip_reason(&self, one: usize, other: usize) -> Option<&SkipReason> {
-        self.skip_reasons.get(&ordered_pair(one, other))
+        self.skip_reasons.get(&ordered_pair([one, other]))
     }
 
     /// Iterates over the pairs of links with bodies that are not checked, each with its reason.
@@ -143,7 +143,9 @@ impl LinkPairs {
     }
 }
 
-fn ordered_pair(one: usize, other: usize) -> [usize; 2] {
+/// Returns two indices in ascending order.
+#[inline]
+pub(crate) fn ordered_pair([one, other]: [usize; 2]) -> [usize; 2] {
     if one <= other {
         [one, other]
     } else {

@@ -2,6 +2,7 @@
 
 use super::{Cell, Item};
 use crate::error::{NothingCompared, RobotError};
+use crate::pairs::ordered_pair;
 use crate::skip_reason::SkipReason;
 use std::collections::BTreeSet;
 
@@ -231,10 +232,6 @@ impl Cell {
         all.filter(|&body| self.item_of_body(body) == item)
             .collect()
     }
-}
-
-pub(super) fn ordered_pair([a, b]: [usize; 2]) -> [usize; 2] {
-    if a < b { [a, b] } else { [b, a] }
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! The distances at which pairs of bodies count as touching.
 
-use super::compared::ordered_pair;
 use super::{Cell, Item};
 use crate::error::RobotError;
+use crate::pairs::ordered_pair;
 use ccd_core::order::greater;
 use rigid_ccd::InputError;
 use std::collections::BTreeMap;

@@ -3,8 +3,8 @@
 //! A body above the plane is as far from the half-space as from a box directly below the body. So a sufficiently wide
 //! and deep box gives the same distances, as long as all moving bodies stay within its reach.
 
+use super::Cell;
 use super::part::PlacedBody;
-use super::{Cell, RobotBodyPlacement};
 use crate::cell::rounding::largest_arm;
 use crate::error::{PathError, RobotError};
 use crate::kinematics::magnitude::Magnitude;
@@ -62,16 +62,6 @@ impl Cell {
         Ok(())
     }
 
-    /// Adds the plane of a static link.
-    pub(super) fn add_link_plane(&mut self, placement: RobotBodyPlacement) {
-        let (_, link_pose) = self.kinematics.link_frame_and_pose(placement.link);
-        let pose = link_pose.compose(&placement.pose_in_link);
-        let placed = PlacedBody::for_plane(pose, self.plane_reach());
-        let index = self.robot_body_placements.len();
-        self.robot_body_placements.push(placement);
-        self.robot_part_count += self.insert(index, placed);
-    }
-
     /// Returns whether the body with this index in [`Cell::carried_bodies`] is the box of a plane.
     pub fn is_plane(&self, body: usize) -> bool {
         self.bodies[body].plane_reach.is_some()
@@ -108,7 +98,7 @@ impl Cell {
     }
 
     /// Returns how far from the base planes must reach: twice as far as any moving body gets.
-    fn plane_reach(&self) -> f64 {
+    pub(super) fn plane_reach(&self) -> f64 {
         let limits = self.robot.limits();
         let farthest = limits.map(|[low, high]| greater(low.abs(), high.abs()));
         let farthest: Vec<f64> = farthest.collect();
