@@ -339,7 +339,7 @@ impl JointCurve {
         }
         for segment in 0..self.segment_count() {
             for source in robot.position_sources() {
-                self.check_jump(segment, source.position_index(), source.factor())?;
+                self.check_jump(segment, source.position_index, source.multiplier)?;
             }
             for (joint, [low, high]) in robot.limits().enumerate() {
                 let polynomial = self.polynomial(segment, joint);

@@ -94,9 +94,11 @@ pub enum PositionRule {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PositionSource {
     /// The index in the configuration of the position that the joint depends on.
-    position_index: usize,
-    multiplier: f64,
-    offset: f64,
+    pub(crate) position_index: usize,
+    /// The factor from that position to the joint's position.
+    pub(crate) multiplier: f64,
+    /// The joint's position when that position is 0.
+    pub(crate) offset: f64,
     /// The sum of the absolute values of the terms of `offset`.
     offset_magnitude: f64,
     /// The number of joints that are followed, one after the other, up to a joint with a position of its own.
@@ -104,21 +106,6 @@ pub(crate) struct PositionSource {
 }
 
 impl PositionSource {
-    /// Returns the index in the configuration of the position that the joint depends on.
-    pub(crate) fn position_index(&self) -> usize {
-        self.position_index
-    }
-
-    /// Returns the multiplier from that position to the joint's position.
-    pub(crate) fn factor(&self) -> f64 {
-        self.multiplier
-    }
-
-    /// Returns the joint's position when that position is 0.
-    pub(crate) fn offset(&self) -> f64 {
-        self.offset
-    }
-
     /// Returns whether the multiplier is an integer. Then one turn of the followed joint is a whole number of turns of
     /// this one.
     pub(crate) fn has_integer_multiplier(&self) -> bool {
@@ -237,7 +224,7 @@ impl Robot {
                 rigid_roots[link] = rigid_roots[parent];
             }
         }
-        let moves = |link: &usize| rigid_roots[*link] != tree.base();
+        let moves = |link: &usize| rigid_roots[*link] != tree.base;
         let mut with_planes = (0..links.len()).filter(|&link| !links[link].planes.is_empty());
         if let Some(moving) = with_planes.find(moves) {
             let link = links[moving].name.clone();
@@ -316,7 +303,7 @@ impl Robot {
 
     /// Returns the index of the base, the only link that is no joint's child.
     pub fn base(&self) -> usize {
-        self.tree.base()
+        self.tree.base
     }
 
     /// Returns the index in [`Robot::links`] of the link with this name.

@@ -1,7 +1,8 @@
 //! Proves that two links always touch on the axis of the hinge between them. The hinge moves no point of its axis.
 
+use super::LinkContactClass;
 use super::measuring::LinkPair;
-use super::search::{LinkPairSearch, Verdict};
+use super::search::LinkPairSearch;
 use crate::tuning::{JOINT_AXIS_INTERVALS, JOINT_AXIS_REFINEMENTS};
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::glam::DVec3;
@@ -29,7 +30,7 @@ impl LinkPairSearch<'_> {
         &mut self,
         links: [usize; 2],
         pair: &LinkPair,
-    ) -> Result<Option<Verdict>, Error> {
+    ) -> Result<Option<LinkContactClass>, Error> {
         let cell = self.measurer.cell;
         let &[between] = &*pair.joints.joints else {
             return Ok(None);
@@ -58,7 +59,7 @@ impl LinkPairSearch<'_> {
             let along = f64::from(k) * interval - reach;
             let [distance, of_shapes] = self.distances_on_axis(links, axis, along)?;
             if of_shapes <= 0.0 {
-                return Ok(Some(Verdict::Always));
+                return Ok(Some(LinkContactClass::Always));
             }
             if distance < least {
                 (best, least) = (along, distance);
@@ -71,7 +72,7 @@ impl LinkPairSearch<'_> {
             let [to_left, shapes_left] = self.distances_on_axis(links, axis, left)?;
             let [to_right, shapes_right] = self.distances_on_axis(links, axis, right)?;
             if lesser(shapes_left, shapes_right) <= 0.0 {
-                return Ok(Some(Verdict::Always));
+                return Ok(Some(LinkContactClass::Always));
             }
             least = lesser(least, lesser(to_left, to_right));
             if to_left < to_right {
@@ -80,7 +81,7 @@ impl LinkPairSearch<'_> {
                 low = left;
             }
         }
-        Ok((least <= 0.0).then_some(Verdict::AlwaysAsEnclosed))
+        Ok((least <= 0.0).then_some(LinkContactClass::AlwaysAsEnclosed))
     }
 
     /// Returns two upper bounds of the distance of an axis point from the farther one of two links: from their bodies,

@@ -5,7 +5,7 @@ use ccd_core::order::greater;
 /// A box of the positions of the joints between two links.
 #[derive(Clone, Debug)]
 pub(super) struct JointBox {
-    ranges: Vec<[f64; 2]>,
+    pub(super) ranges: Vec<[f64; 2]>,
     /// The volume as a fraction of the volume of the initial box.
     pub(super) volume_fraction: f64,
 }
@@ -21,10 +21,6 @@ impl JointBox {
     /// Returns the box that contains a single point.
     pub(super) fn from_point(positions: &[f64]) -> Self {
         JointBox::new(positions.iter().map(|&own| [own; 2]).collect())
-    }
-
-    pub(super) fn ranges(&self) -> &[[f64; 2]] {
-        &self.ranges
     }
 
     /// Returns the center.

@@ -47,7 +47,7 @@ impl JointsBetween {
         let numbers = numbers.filter_map(|&joint| kinematics.moving_joint_index(joint));
         let joints = numbers.map(|moving_index| {
             let source = kinematics.joints()[moving_index].source;
-            let index = source.position_index();
+            let index = source.position_index;
             let known = position_indices.iter().position(|&other| other == index);
             let box_index = known.unwrap_or_else(|| {
                 position_indices.push(index);
@@ -56,13 +56,13 @@ impl JointsBetween {
             JointBetween {
                 moving_index,
                 box_index,
-                factor: source.factor().abs(),
+                factor: source.multiplier.abs(),
             }
         });
         let joints: Vec<JointBetween> = joints.collect();
         let all_positions = all_positions(cell, &joints, &position_indices)?;
         let mut farthest = robot.configuration_nearest_zero();
-        for (&index, &[low, high]) in position_indices.iter().zip(all_positions.ranges()) {
+        for (&index, &[low, high]) in position_indices.iter().zip(&all_positions.ranges) {
             farthest[index] = greater(low.abs(), high.abs());
         }
         cell.check_plane_reach(kinematics.magnitudes(&farthest))

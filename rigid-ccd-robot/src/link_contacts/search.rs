@@ -13,11 +13,14 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 /// The progress of one pair of links. Positions are those of the joints between them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct LinkPairRecord {
     pub(super) links: [usize; 2],
-    pub(super) verdict: Option<Verdict>,
+    /// The class, once it is proven without witnesses: never, always, or always as enclosed.
+    pub(super) proven_class: Option<LinkContactClass>,
+    /// The first positions where the links touch.
     pub(super) touching: Option<Vec<f64>>,
+    /// The first positions where the links are apart.
     pub(super) apart: Option<Vec<f64>>,
     /// The least distance so far, with its positions.
     pub(super) nearest: Option<(f64, Vec<f64>)>,
@@ -37,19 +40,10 @@ pub(super) struct LinkPairRecord {
     pub(super) is_exhausted: bool,
 }
 
-/// What is proven about a pair of links.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Verdict {
-    Never,
-    Always,
-    /// The bodies always touch. Their shapes may not.
-    AlwaysAsEnclosed,
-}
-
 /// Searches for proofs about pairs of links, and keeps memory from pair to pair.
 pub(super) struct LinkPairSearch<'c> {
     pub(super) measurer: Measurer<'c>,
-    end: SearchEnd,
+    pub(super) end: SearchEnd,
 }
 
 /// A box in the queue. The largest box comes first.
@@ -59,16 +53,8 @@ impl LinkPairRecord {
     pub(super) fn new(links: [usize; 2]) -> Self {
         LinkPairRecord {
             links,
-            verdict: None,
-            touching: None,
-            apart: None,
-            nearest: None,
-            apart_fraction: 0.0,
             undecided_fraction: 1.0,
-            boxes: 0,
-            is_sampled: false,
-            touches_without_depth: false,
-            is_exhausted: false,
+            ..LinkPairRecord::default()
         }
     }
 
@@ -80,10 +66,8 @@ impl LinkPairRecord {
         };
         let least_distance = self.nearest.map_or(f64::INFINITY, |(least, _)| least);
         let [touching, apart] = configurations([self.touching, self.apart]);
-        match (self.verdict, touching, apart) {
-            (Some(Verdict::Never), ..) => LinkContactClass::Never,
-            (Some(Verdict::Always), ..) => LinkContactClass::Always,
-            (Some(Verdict::AlwaysAsEnclosed), ..) => LinkContactClass::AlwaysAsEnclosed,
+        match (self.proven_class, touching, apart) {
+            (Some(class), ..) => class,
             (None, Some(touching_configuration), Some(apart_configuration)) => {
                 LinkContactClass::Sometimes {
                     touching_configuration,
@@ -115,7 +99,7 @@ impl LinkPairRecord {
 
     /// Returns whether the pair is decided.
     pub(super) fn is_decided(&self) -> bool {
-        self.verdict.is_some() || (self.touching.is_some() && self.apart.is_some())
+        self.proven_class.is_some() || (self.touching.is_some() && self.apart.is_some())
     }
 
     /// Returns the number of boxes that a search may examine. This is `limit`. A pair that touches without overlapping
@@ -173,31 +157,27 @@ impl<'c> LinkPairSearch<'c> {
             return Ok(());
         };
         if !record.is_sampled {
-            record.verdict = self.prove_contact_on_hinge_axis(record.links, &pair)?;
-            if record.verdict.is_some() {
+            record.proven_class = self.prove_contact_on_hinge_axis(record.links, &pair)?;
+            if record.proven_class.is_some() {
                 return Ok(());
             }
             self.find_witnesses(&pair, record)?;
-            record.is_sampled = !self.is_over();
+            record.is_sampled = !self.end.is_reached();
             // Links that do not move relative to each other touch always or never.
             if pair.joints.joints.is_empty() && record.touching.is_some() {
                 self.examine_boxes(&pair, record, 1)?;
                 let fallback = if pair.encloses_shapes(cell) {
-                    Verdict::AlwaysAsEnclosed
+                    LinkContactClass::AlwaysAsEnclosed
                 } else {
-                    Verdict::Always
+                    LinkContactClass::Always
                 };
-                record.verdict.get_or_insert(fallback);
+                record.proven_class.get_or_insert(fallback);
             }
         }
         if !record.is_decided() {
             self.examine_boxes(&pair, record, max_boxes)?;
         }
         Ok(())
-    }
-
-    pub(super) fn is_over(&self) -> bool {
-        self.end.is_reached()
     }
 
     /// Tries to prove, with at most `max_boxes` boxes, that the links never or always touch. Stops if both kinds of
@@ -210,10 +190,10 @@ impl<'c> LinkPairSearch<'c> {
     ) -> Result<(), Error> {
         let mut waiting = BinaryHeap::from([WaitingBox(pair.joints.all_positions.clone())]);
         let (mut apart_fraction, mut touching_fraction) = (0.0, 0.0);
-        let mut always = Verdict::Always;
+        let mut class_if_touching = LinkContactClass::Always;
         let mut without_depth = 0;
         record.boxes = 0;
-        while record.boxes < max_boxes && !self.is_over() {
+        while record.boxes < max_boxes && !self.end.is_reached() {
             if record.boxes == MAX_BOXES_WITHOUT_DEPTH && without_depth == record.boxes {
                 record.is_exhausted = true;
                 break;
@@ -242,7 +222,7 @@ impl<'c> LinkPairSearch<'c> {
                 BoxClass::ShapesTouching => touching_fraction += joint_box.volume_fraction,
                 BoxClass::BodiesTouching => {
                     touching_fraction += joint_box.volume_fraction;
-                    always = Verdict::AlwaysAsEnclosed;
+                    class_if_touching = LinkContactClass::AlwaysAsEnclosed;
                 }
                 BoxClass::Undecided => {
                     let index = check.main_position_index;
@@ -267,7 +247,11 @@ impl<'c> LinkPairSearch<'c> {
         if waiting.is_empty() {
             // If boxes of both kinds existed, witnesses of both kinds would have decided the pair.
             let is_apart = record.touching.is_none() && touching_fraction == 0.0;
-            record.verdict = Some(if is_apart { Verdict::Never } else { always });
+            record.proven_class = Some(if is_apart {
+                LinkContactClass::Never
+            } else {
+                class_if_touching
+            });
         }
         Ok(())
     }

@@ -17,12 +17,12 @@ impl LinkPairSearch<'_> {
         pair: &LinkPair,
         record: &mut LinkPairRecord,
     ) -> Result<(), Error> {
-        let ranges = pair.joints.all_positions.ranges();
+        let ranges = &pair.joints.all_positions.ranges;
         let mut random = Random(0);
         // The samples with the least distances so far, sorted by distance.
         let mut starts: Vec<(f64, Vec<f64>)> = Vec::new();
         for _ in 0..WITNESS_SAMPLES {
-            if self.is_over() || record.is_decided() {
+            if self.end.is_reached() || record.is_decided() {
                 return Ok(());
             }
             let positions: Vec<f64> = ranges.iter().map(|&range| random.position(range)).collect();
@@ -59,7 +59,7 @@ impl LinkPairSearch<'_> {
         mut positions: Vec<f64>,
         mut distance: f64,
     ) -> Result<(), Error> {
-        let ranges = pair.joints.all_positions.ranges();
+        let ranges = &pair.joints.all_positions.ranges;
         let (mut step, mut check_count) = (FIRST_DESCENT_STEP, 0);
         for _ in 0..MAX_DESCENT_CHECKS {
             let start = distance;
@@ -70,7 +70,7 @@ impl LinkPairSearch<'_> {
                     if trial == positions {
                         continue;
                     }
-                    if check_count >= MAX_DESCENT_CHECKS || self.is_over() {
+                    if check_count >= MAX_DESCENT_CHECKS || self.end.is_reached() {
                         return Ok(());
                     }
                     check_count += 1;

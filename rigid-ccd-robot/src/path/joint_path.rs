@@ -72,7 +72,7 @@ impl JointPath {
         for segment in 0..self.segment_count {
             for power in 0..=degree {
                 for MovingJoint { source, .. } in joints {
-                    let given = curve.coefficient(segment, power, source.position_index());
+                    let given = curve.coefficient(segment, power, source.position_index);
                     let [high, low] = source.polynomial_coefficient(power, given).parts();
                     self.coefficients.push(high);
                     self.low_coefficients.push(low);
@@ -82,7 +82,7 @@ impl JointPath {
                 let polynomial = self.polynomial(segment, number);
                 let range = polynomial.range();
                 let position = greater(range[0].abs(), range[1].abs());
-                let moved = position + joint.source.offset().abs();
+                let moved = position + joint.source.offset.abs();
                 let rounding = joint.source.magnitude_of_product(moved)
                     + EXTENDED_PRECISION_ERROR / U * polynomial.coefficient_magnitude_sum();
                 let magnitude = &mut self.magnitudes[number];

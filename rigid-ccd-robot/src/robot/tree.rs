@@ -9,7 +9,7 @@ use std::collections::HashMap;
 pub(super) struct Tree {
     /// For each link, its parent joint and link; `None` for the base.
     parents: Vec<Option<Parent>>,
-    base: usize,
+    pub(super) base: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -93,10 +93,6 @@ impl Tree {
             Some(link) => Err(RobotError::Loop { link: name(link) }),
             None => Ok(tree),
         }
-    }
-
-    pub(super) fn base(&self) -> usize {
-        self.base
     }
 
     pub(super) fn parent(&self, link: usize) -> Option<usize> {
