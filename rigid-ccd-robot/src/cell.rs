@@ -35,7 +35,7 @@ pub struct Cell {
     /// The convex parts of all bodies, sorted by body.
     parts: Vec<HullPart>,
     robot_part_count: usize,
-    /// The link and the pose of each body that the robot carries. Same indices as `bodies`.
+    /// The link and the pose of each body of the robot, attached bodies included. Same indices as `bodies`.
     robot_body_placements: Vec<RobotBodyPlacement>,
     obstacle_names: Vec<String>,
     margins: Margins,
@@ -45,7 +45,7 @@ pub struct Cell {
     smallest_item: OnceLock<Option<(usize, f64)>>,
 }
 
-/// The link that carries a body, and the body's pose on it.
+/// The link to which a body is fixed, and the body's pose in the link's frame.
 #[derive(Clone, Debug)]
 struct RobotBodyPlacement {
     /// The index of the link.
@@ -75,14 +75,14 @@ impl<'c> Item<'c> {
     }
 }
 
-/// A body of a cell, and the link that carries it.
+/// A body of a cell, and the link to which it is fixed.
 #[derive(Clone, Copy, Debug)]
 pub struct AttachedBody<'c> {
     /// The link, attached body or obstacle that the body belongs to.
     pub item: Item<'c>,
     /// The body.
     pub body: &'c Body,
-    /// The index of the link that carries the body: the base for an obstacle.
+    /// The index of the link to which the body is fixed; for an obstacle, the base.
     pub link: usize,
     /// The pose of the body in the frame of the link.
     pub pose: Pose,
@@ -219,8 +219,8 @@ impl Cell {
 
     /// Returns the names of the attached bodies in the order of their attachment.
     pub fn attached_names(&self) -> impl Iterator<Item = &str> {
-        let placement = self.robot_body_placements.iter();
-        placement.filter_map(|placement| placement.attached_name.as_deref())
+        let placements = self.robot_body_placements.iter();
+        placements.filter_map(|placement| placement.attached_name.as_deref())
     }
 
     /// Returns the link, attached body or obstacle with this name.
@@ -261,7 +261,8 @@ impl Cell {
         bodies.collect()
     }
 
-    /// Returns all bodies, each with the link that carries it. The order is that of [`Cell::placed_bodies`].
+    /// Returns all bodies, each with the link to which it is fixed. The order is the same as in
+    /// [`Cell::placed_bodies`].
     pub fn carried_bodies(&self) -> impl ExactSizeIterator<Item = AttachedBody<'_>> {
         let bodies = self.bodies.iter().enumerate();
         bodies.map(|(index, placed)| {
@@ -283,12 +284,12 @@ impl Cell {
         &self.kinematics
     }
 
-    /// Returns all bodies: those that the robot carries, then the obstacles.
+    /// Returns all bodies: first the robot's, attached bodies included, then the obstacles.
     pub(crate) fn bodies(&self) -> &[PlacedBody] {
         &self.bodies
     }
 
-    /// Returns the number of bodies that the robot carries.
+    /// Returns the number of the robot's bodies, attached bodies included.
     pub(crate) fn robot_body_count(&self) -> usize {
         self.robot_body_placements.len()
     }
@@ -302,7 +303,7 @@ impl Cell {
         self.robot_part_count
     }
 
-    /// Returns the index of the link that carries a body of the robot.
+    /// Returns the index of the link to which a body of the robot is fixed.
     pub(crate) fn link_of(&self, body: usize) -> usize {
         self.robot_body_placements[body].link
     }
@@ -375,13 +376,13 @@ impl Cell {
     fn remove(&mut self, index: usize) {
         self.bodies.remove(index);
         self.smallest_item = OnceLock::new();
-        let after_removal = |body: usize| match body.cmp(&index) {
+        let index_after_removal = |body: usize| match body.cmp(&index) {
             Ordering::Less => Some(body),
             Ordering::Equal => None,
             Ordering::Greater => Some(body - 1),
         };
-        self.margins.remove_body(index, after_removal);
-        self.allowed.reindex(after_removal);
+        self.margins.remove_body(index, index_after_removal);
+        self.allowed.reindex(index_after_removal);
         self.parts.retain(|part| part.owner != index);
         for part in &mut self.parts {
             if part.owner > index {
@@ -401,7 +402,10 @@ impl Cell {
     }
 
     fn obstacle_index(&self, name: &str) -> Result<usize, RobotError> {
-        let index = self.obstacle_names.iter().position(|other| other == name);
+        let index = self
+            .obstacle_names
+            .iter()
+            .position(|obstacle| obstacle == name);
         index.ok_or_else(|| RobotError::NoSuchObstacle { name: name.into() })
     }
 

@@ -5,19 +5,19 @@ use crate::pairs::LinkPairs;
 use crate::robot::{CompoundKind, Joint, Link, PositionRule, Robot};
 use rigid_ccd::{Pose, trajectory};
 
-/// The name of the common base link. Underscores are appended if a robot already has a link of that name.
+/// The name of the common base link. Underscores are appended while a robot has a link of that name.
 const WORLD: &str = "world";
 
 /// A robot, and where to place its base among other robots.
 #[derive(Clone, Copy, Debug)]
 pub struct PlacedRobot<'a> {
-    /// The prefix of the robot's link and joint names, which a slash separates from them. Empty to keep the names.
+    /// The prefix of the robot's link and joint names, without the slash that follows it. Empty to keep the names.
     pub name: &'a str,
     /// The robot.
     pub robot: &'a Robot,
     /// The pairs of the robot's links that are checked.
     pub pairs: &'a LinkPairs,
-    /// The link that carries the base, by its combined name, such as `arm/flange`; `None` for the world.
+    /// The link to which the base is attached, by its combined name, such as `arm/flange`; `None` for the world.
     pub carrier: Option<&'a str>,
     /// The pose of the base in the frame of the carrier or the world. For a moving base, the pose at positions 0.
     pub pose: Pose,
@@ -27,17 +27,17 @@ pub struct PlacedRobot<'a> {
 
 impl Robot {
     /// Combines robots into one robot, whose base is a link `world`. A configuration lists the positions of the first
-    /// robot, then those of the second, and so on.
+    /// robot, then the positions of the second, and so on.
     ///
-    /// All robots are checked against each other. Within each robot, the pairs that were given for it are checked. The
-    /// positions of a moving base come first, with names such as `cart/base/x`.
+    /// All robots are checked against each other. Within a robot, its [`PlacedRobot::pairs`] are checked. The positions
+    /// of a moving base come before the other positions of its robot, with names such as `cart/base/x`.
     ///
-    /// A moving obstacle is a robot of one link with a moving base. A gripper is a robot that a link of the arm
-    /// carries; it is not checked against the links that are fixed to its base.
+    /// A moving obstacle is a robot of one link with a moving base. A gripper is a robot whose base is attached to a
+    /// link of the arm. It is not checked against the links that are fixed to its base.
     ///
     /// # Errors
-    /// [`RobotError`] for repeated names, a carrier that is not a link, carriers that carry each other, a planar base
-    /// without a normal, and pairs of another robot.
+    /// [`RobotError`] for repeated names, a carrier that is not a link, robots that are attached to each other in a
+    /// loop, a planar base without a normal, and pairs of another robot.
     ///
     /// ```
     /// use rigid_ccd::{Body, Pose};
@@ -65,14 +65,14 @@ impl Robot {
     /// ```
     pub fn combine(robots: &[PlacedRobot<'_>]) -> Result<(Robot, LinkPairs), RobotError> {
         let mut world = WORLD.to_owned();
-        let names = || robots.iter().flat_map(PlacedRobot::link_names);
-        while names().any(|name| name == world) {
+        let link_names = || robots.iter().flat_map(PlacedRobot::link_names);
+        while link_names().any(|name| name == world) {
             world.push('_');
         }
         let mut links = vec![Link::named(&world)];
         let mut joints = Vec::new();
         let mut first_links = Vec::new();
-        // Links of moving bases come last, so that the order of each robot's links is kept.
+        // The links of moving bases come last: the links of a robot stay consecutive and in order.
         let mut base_links = Vec::new();
         for placed in robots {
             let carrier = placed.carrier.unwrap_or(&world);

@@ -1,7 +1,7 @@
 //! Searches for witnesses: configurations where two links touch, and where they are apart.
 //!
-//! Samples positions at random, including limits. From the samples with the least distances, a pattern search
-//! descends: it tries a step along each position in turn, and halves the step size when no step lowers the distance.
+//! First samples positions at random, including limits. A pattern search then descends from the samples with the least
+//! distances: it tries a step along each position in turn, and halves the step when no step lowers the distance.
 
 use super::measuring::{Contact, LinkPair};
 use super::search::{LinkPairRecord, LinkPairSearch};
@@ -62,7 +62,7 @@ impl LinkPairSearch<'_> {
         let ranges = &pair.joints.all_positions.ranges;
         let (mut step, mut check_count) = (FIRST_DESCENT_STEP, 0);
         for _ in 0..MAX_DESCENT_CHECKS {
-            let start = distance;
+            let distance_before = distance;
             for (index, &[low, high]) in ranges.iter().enumerate() {
                 for step in [step, -step] {
                     let mut trial = positions.clone();
@@ -87,7 +87,7 @@ impl LinkPairSearch<'_> {
                     }
                 }
             }
-            if !(distance < start) {
+            if !(distance < distance_before) {
                 step *= 0.5;
                 if step < FIRST_DESCENT_STEP * 0.5f64.powi(DESCENT_HALVINGS) {
                     break;

@@ -90,7 +90,7 @@ impl MeshBodies {
             .converted_to_unit(Unit::Metre)
             .into_mesh()?;
         let content = &mesh.repairs().remarks;
-        let is_divided = content.iter().any(|own| own.what == DIVIDED_VERTICES);
+        let is_divided = content.iter().any(|remark| remark.what == DIVIDED_VERTICES);
         if self.rules == MeshRules::Mjcf && is_divided {
             let shape = "a mesh whose vertices have a fourth number other than 1";
             return Err(MjcfError::UnsupportedShape { shape }.into());

@@ -48,26 +48,32 @@ pub(super) fn read_assets(root: &Element, classes: &Classes) -> Result<Assets, M
         if !["mesh", "hfield"].contains(&element.name.as_str()) {
             continue;
         }
-        let own = classes.merged(element, None)?;
-        let file = own.name("file");
+        let attributes = classes.merged(element, None)?;
+        let file = attributes.name("file");
         let stem = file.and_then(|file| Path::new(file).file_stem());
         let stem = stem.and_then(|stem| stem.to_str());
-        let Some(name) = own.name("name").or(stem) else {
-            return Err(own.invalid("name"));
+        let Some(name) = attributes.name("name").or(stem) else {
+            return Err(attributes.invalid("name"));
         };
         names.add(&element.name, Some(name))?;
         if element.name == "hfield" {
-            assets.height_fields.insert(name.to_owned(), own);
+            assets.height_fields.insert(name.to_owned(), attributes);
             continue;
         }
-        let scale = own.array("scale")?.map_or(DVec3::ONE, DVec3::from_array);
-        let at = own.array("refpos")?.map_or(DVec3::ZERO, DVec3::from_array);
-        let rotation = own.quaternion("refquat")?.unwrap_or(DQuat::IDENTITY);
+        let scale = attributes
+            .array("scale")?
+            .map_or(DVec3::ONE, DVec3::from_array);
+        let at = attributes
+            .array("refpos")?
+            .map_or(DVec3::ZERO, DVec3::from_array);
+        let rotation = attributes.quaternion("refquat")?.unwrap_or(DQuat::IDENTITY);
         let reference = Pose::new(at, rotation);
-        let back = reference.map_err(|_| own.invalid("refpos"))?.inverse();
+        let back = reference
+            .map_err(|_| attributes.invalid("refpos"))?
+            .inverse();
         let back = DAffine3::from_rotation_translation(back.rotation(), back.translation());
         let asset = MeshAsset {
-            source: mesh_source(&own)?,
+            source: mesh_source(&attributes)?,
             map: DAffine3::from_scale(scale) * back,
         };
         assets.meshes.insert(name.to_owned(), asset);
@@ -75,35 +81,35 @@ pub(super) fn read_assets(root: &Element, classes: &Classes) -> Result<Assets, M
     Ok(assets)
 }
 
-fn mesh_source(own: &Attributes) -> Result<MeshSource, MjcfError> {
-    let vertices = own.numbers("vertex")?;
-    Ok(match (own.name("file"), vertices) {
+fn mesh_source(attributes: &Attributes) -> Result<MeshSource, MjcfError> {
+    let vertices = attributes.numbers("vertex")?;
+    Ok(match (attributes.name("file"), vertices) {
         (Some(file), None) => MeshSource::File(file.to_owned()),
         (None, Some(coordinates)) => {
             let (points, rest) = coordinates.as_chunks::<3>();
             if !rest.is_empty() {
-                return Err(own.invalid("vertex"));
+                return Err(attributes.invalid("vertex"));
             }
             MeshSource::Given {
                 vertices: points.iter().copied().map(DVec3::from_array).collect(),
-                faces: faces(own)?,
+                faces: faces(attributes)?,
             }
         }
-        (None, None) if own.get("builtin").is_some() => MeshSource::Builtin,
-        (None, None) => return Err(own.invalid("file")),
-        (Some(_), Some(_)) => return Err(own.invalid("vertex")),
+        (None, None) if attributes.get("builtin").is_some() => MeshSource::Builtin,
+        (None, None) => return Err(attributes.invalid("file")),
+        (Some(_), Some(_)) => return Err(attributes.invalid("vertex")),
     })
 }
 
-fn faces(own: &Attributes) -> Result<Vec<[u32; 3]>, MjcfError> {
-    let text = own.get("face").unwrap_or("");
+fn faces(attributes: &Attributes) -> Result<Vec<[u32; 3]>, MjcfError> {
+    let text = attributes.get("face").unwrap_or("");
     let corners = text
         .split_ascii_whitespace()
         .map(|corner| corner.parse().ok());
     let corners: Option<Vec<u32>> = corners.collect();
-    let corners = corners.ok_or_else(|| own.invalid("face"))?;
+    let corners = corners.ok_or_else(|| attributes.invalid("face"))?;
     match corners.as_chunks::<3>() {
         (faces, []) => Ok(faces.to_vec()),
-        _ => Err(own.invalid("face")),
+        _ => Err(attributes.invalid("face")),
     }
 }

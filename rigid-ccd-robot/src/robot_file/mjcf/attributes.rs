@@ -28,15 +28,15 @@ pub(super) struct Attributes {
 impl Attributes {
     /// Reads the attributes of an element. Empty numeric attributes are left out.
     pub(super) fn read(node: Node<'_, '_>) -> Self {
-        let is_given = |own: &Attribute<'_, '_>| {
-            let is_empty = own.value().trim_ascii().is_empty();
-            !(is_empty && NUMBERS.split(' ').any(|number| number == own.name()))
+        let is_given = |attribute: &Attribute<'_, '_>| {
+            let is_empty = attribute.value().trim_ascii().is_empty();
+            !(is_empty && NUMBERS.split(' ').any(|number| number == attribute.name()))
         };
         let values = node.attributes().filter(is_given);
         Attributes {
             element: node.tag_name().name().to_owned(),
             values: values
-                .map(|own| (own.name().to_owned(), own.value().to_owned()))
+                .map(|attribute| (attribute.name().to_owned(), attribute.value().to_owned()))
                 .collect(),
         }
     }
@@ -46,12 +46,12 @@ impl Attributes {
     pub(super) fn over(&self, class: &Attributes) -> Result<Self, MjcfError> {
         let mut values = class.values.clone();
         let is_own = |name: &&str| self.values.contains_key(*name);
-        if let Some(own) = ORIENTATIONS.into_iter().find(is_own) {
+        if let Some(name) = ORIENTATIONS.into_iter().find(is_own) {
             for other in ORIENTATIONS {
                 // MuJoCo lets any rotation replace a quaternion of the class. For other combinations it uses
                 // the rotation of the class. That is probably a mistake of the file, and an error here.
-                if other != own && values.remove(other).is_some() && other != "quat" {
-                    return Err(self.invalid(own));
+                if other != name && values.remove(other).is_some() && other != "quat" {
+                    return Err(self.invalid(name));
                 }
             }
         }

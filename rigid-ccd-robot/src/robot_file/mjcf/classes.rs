@@ -19,7 +19,11 @@ impl Classes {
     pub(super) fn read(root: &Element) -> Result<Self, MjcfError> {
         let mut classes = Classes(BTreeMap::from([(MAIN.to_owned(), ClassAttributes::new())]));
         let mut name_of_main = None;
-        for section in root.children.iter().filter(|own| own.name == "default") {
+        for section in root
+            .children
+            .iter()
+            .filter(|section| section.name == "default")
+        {
             // The outermost class applies to all elements. All sections must give it the same name.
             let name = section.attributes.name("class").unwrap_or(MAIN);
             if *name_of_main.get_or_insert(name) != name {
@@ -39,19 +43,19 @@ impl Classes {
         inherited: &ClassAttributes,
         name: &str,
     ) -> Result<ClassAttributes, MjcfError> {
-        let mut own = inherited.clone();
+        let mut attributes = inherited.clone();
         for element in class
             .children
             .iter()
             .filter(|element| element.name != "default")
         {
-            let merged = match own.get(&element.name) {
+            let merged = match attributes.get(&element.name) {
                 Some(of_class) => element.attributes.over(of_class)?,
                 None => element.attributes.clone(),
             };
-            own.insert(element.name.clone(), merged);
+            attributes.insert(element.name.clone(), merged);
         }
-        self.0.insert(name.to_owned(), own.clone());
+        self.0.insert(name.to_owned(), attributes.clone());
         for inner in class
             .children
             .iter()
@@ -61,9 +65,9 @@ impl Classes {
             if self.0.contains_key(name) {
                 return Err(MjcfError::repeated_name("class", name));
             }
-            self.add(inner, &own, name)?;
+            self.add(inner, &attributes, name)?;
         }
-        Ok(own)
+        Ok(attributes)
     }
 
     /// Checks that a class exists.

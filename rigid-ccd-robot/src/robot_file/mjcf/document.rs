@@ -36,7 +36,10 @@ pub(super) fn children_of_sections<'r>(
     root: &'r Element,
     section: &'r str,
 ) -> impl Iterator<Item = &'r Element> {
-    let sections = root.children.iter().filter(move |own| own.name == section);
+    let sections = root
+        .children
+        .iter()
+        .filter(move |element| element.name == section);
     sections.flat_map(|section| &section.children)
 }
 
@@ -61,7 +64,9 @@ fn refuse_prefixes(node: Node<'_, '_>) -> Result<(), MjcfError> {
         let parent = node.parent_element();
         return Err(MjcfError::UnknownElement {
             element: qualified(prefix, name.name()),
-            parent: parent.map_or("", |own| own.tag_name().name()).to_owned(),
+            parent: parent
+                .map_or("", |parent| parent.tag_name().name())
+                .to_owned(),
         });
     }
     for attribute in node.attributes() {

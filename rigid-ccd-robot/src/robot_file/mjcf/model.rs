@@ -38,18 +38,18 @@ impl MjcfModel {
             match section.name.as_str() {
                 "contact" => {
                     for element in &section.children {
-                        let own = classes.merged(element, None)?;
-                        names.add(&element.name, own.name("name"))?;
-                        constraints.push(own);
+                        let attributes = classes.merged(element, None)?;
+                        names.add(&element.name, attributes.name("name"))?;
+                        constraints.push(attributes);
                     }
                 }
                 // Classes list all kinds of equalities under one name.
                 "equality" => {
                     for element in &section.children {
-                        let own = classes.merged_as("equality", element, None)?;
-                        names.add("equality", own.name("name"))?;
+                        let attributes = classes.merged_as("equality", element, None)?;
+                        names.add("equality", attributes.name("name"))?;
                         if settings.has_equalities {
-                            constraints.push(own);
+                            constraints.push(attributes);
                         }
                     }
                 }
@@ -86,6 +86,6 @@ impl MjcfModel {
     pub(super) fn constraints_named(&self, element: &str) -> impl Iterator<Item = &Attributes> {
         self.constraints
             .iter()
-            .filter(move |own| own.element == element)
+            .filter(move |constraint| constraint.element == element)
     }
 }

@@ -8,24 +8,26 @@ use rigid_ccd::Pose;
 use rigid_ccd::glam::{DMat3, DQuat, DVec3};
 
 /// Reads the pose of an element from its position and one of the rotation attributes.
-pub(super) fn read_pose(own: &Attributes, settings: &Settings) -> Result<Pose, MjcfError> {
-    let position = own.array("pos")?.unwrap_or([0.0; 3]);
-    Pose::new(position, read_rotation(own, settings)?).map_err(|_| own.invalid("pos"))
+pub(super) fn read_pose(attributes: &Attributes, settings: &Settings) -> Result<Pose, MjcfError> {
+    let position = attributes.array("pos")?.unwrap_or([0.0; 3]);
+    Pose::new(position, read_rotation(attributes, settings)?).map_err(|_| attributes.invalid("pos"))
 }
 
-fn read_rotation(own: &Attributes, settings: &Settings) -> Result<DQuat, MjcfError> {
-    let mut given = ORIENTATIONS.iter().filter(|name| own.get(name).is_some());
+fn read_rotation(attributes: &Attributes, settings: &Settings) -> Result<DQuat, MjcfError> {
+    let mut given = ORIENTATIONS
+        .iter()
+        .filter(|name| attributes.get(name).is_some());
     let Some(name) = given.next() else {
         return Ok(DQuat::IDENTITY);
     };
-    let invalid = || own.invalid(name);
+    let invalid = || attributes.invalid(name);
     if given.next().is_some() {
         return Err(invalid());
     }
-    let direction = |v: [f64; 3]| own.direction(name, DVec3::from_array(v));
-    let numbers = own.numbers(name)?.unwrap_or_default();
+    let direction = |v: [f64; 3]| attributes.direction(name, DVec3::from_array(v));
+    let numbers = attributes.numbers(name)?.unwrap_or_default();
     match (*name, &numbers[..]) {
-        ("quat", _) => own.quaternion(name)?.ok_or_else(invalid),
+        ("quat", _) => attributes.quaternion(name)?.ok_or_else(invalid),
         ("axisangle", &[x, y, z, angle]) => {
             let axis = direction([x, y, z])?;
             Ok(DQuat::from_axis_angle(axis, settings.radians(angle)))

@@ -78,8 +78,8 @@ impl MjcfModel {
     fn excluded_pairs(&self) -> Result<Vec<[usize; 2]>, MjcfError> {
         let excludes = self.constraints_named("exclude");
         excludes
-            .map(|own| {
-                let body = |name: &str| self.body_named(own.required_name(name)?);
+            .map(|exclude| {
+                let body = |name: &str| self.body_named(exclude.required_name(name)?);
                 Ok([body("body1")?, body("body2")?])
             })
             .collect()
