@@ -55,7 +55,7 @@ pub enum RobotFileError {
     /// A package folder does not exist.
     #[error("there is no folder {} to search for packages", folder.display())]
     NoFolder {
-        /// The given path.
+        /// The path of the folder.
         folder: PathBuf,
     },
     /// A floating, planar or spherical joint has a `mimic`.

@@ -27,8 +27,8 @@ pub(super) struct MeshAsset {
 /// The source of a mesh's triangles.
 pub(super) enum MeshSource {
     File(String),
-    /// The vertices and triangles are in the model. Without triangles, the mesh is the hull of the vertices.
-    Given {
+    /// The model contains the vertices and triangles. Without triangles, the mesh is the hull of the vertices.
+    InModel {
         vertices: Vec<DVec3>,
         faces: Vec<[u32; 3]>,
     },
@@ -50,9 +50,9 @@ pub(super) fn read_assets(root: &Element, classes: &Classes) -> Result<Assets, M
         }
         let attributes = classes.merged(element, None)?;
         let file = attributes.name("file");
-        let stem = file.and_then(|file| Path::new(file).file_stem());
-        let stem = stem.and_then(|stem| stem.to_str());
-        let Some(name) = attributes.name("name").or(stem) else {
+        let file_stem = file.and_then(|file| Path::new(file).file_stem());
+        let file_stem = file_stem.and_then(|stem| stem.to_str());
+        let Some(name) = attributes.name("name").or(file_stem) else {
             return Err(attributes.invalid("name"));
         };
         names.add(&element.name, Some(name))?;
@@ -63,18 +63,19 @@ pub(super) fn read_assets(root: &Element, classes: &Classes) -> Result<Assets, M
         let scale = attributes
             .array("scale")?
             .map_or(DVec3::ONE, DVec3::from_array);
-        let at = attributes
+        let position = attributes
             .array("refpos")?
             .map_or(DVec3::ZERO, DVec3::from_array);
         let rotation = attributes.quaternion("refquat")?.unwrap_or(DQuat::IDENTITY);
-        let reference = Pose::new(at, rotation);
-        let back = reference
+        let reference_pose = Pose::new(position, rotation);
+        let to_origin = reference_pose
             .map_err(|_| attributes.invalid("refpos"))?
             .inverse();
-        let back = DAffine3::from_rotation_translation(back.rotation(), back.translation());
+        let to_origin =
+            DAffine3::from_rotation_translation(to_origin.rotation(), to_origin.translation());
         let asset = MeshAsset {
             source: mesh_source(&attributes)?,
-            map: DAffine3::from_scale(scale) * back,
+            map: DAffine3::from_scale(scale) * to_origin,
         };
         assets.meshes.insert(name.to_owned(), asset);
     }
@@ -90,7 +91,7 @@ fn mesh_source(attributes: &Attributes) -> Result<MeshSource, MjcfError> {
             if !rest.is_empty() {
                 return Err(attributes.invalid("vertex"));
             }
-            MeshSource::Given {
+            MeshSource::InModel {
                 vertices: points.iter().copied().map(DVec3::from_array).collect(),
                 faces: faces(attributes)?,
             }

@@ -34,7 +34,7 @@ pub(super) struct MjcfJoint {
     pub(super) axis: DVec3,
     /// The limits of the position; `None` for an unlimited joint.
     pub(super) limits: Option<[f64; 2]>,
-    /// The position at which the body has its pose.
+    /// The position of the joint at which the body has the pose in the file.
     pub(super) reference: f64,
     /// Whether MuJoCo moves the body's frame to its center of mass.
     is_aligned: bool,
@@ -53,7 +53,7 @@ pub(super) enum MjcfJointKind {
 pub(super) struct MjcfGeom {
     pub(super) attributes: Attributes,
     pub(super) pose: Pose,
-    /// The pose of the surrounding frame, in which `fromto` is given.
+    /// The pose of the surrounding `frame` element in the body's frame. The points of `fromto` are in this frame.
     pub(super) frame: Pose,
     pub(super) contype: i32,
     pub(super) conaffinity: i32,
@@ -102,10 +102,10 @@ struct Reader<'r> {
     added_count: usize,
 }
 
-/// The context in which elements are added.
+/// The context of the elements that are added.
 #[derive(Clone, Copy)]
 struct Place<'r> {
-    /// The index of the body.
+    /// The index of the body to which the elements are added.
     body: usize,
     /// The pose of the elements' frame in the body's frame.
     frame: Pose,
@@ -165,8 +165,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Adds the children of a `replicate` element several times. Each copy is moved further, and its names get a
-    /// number.
+    /// Adds the children of a `replicate` element several times. Each copy is displaced from the previous copy, and its
+    /// names get the index of the copy as a suffix.
     fn replicate(
         &mut self,
         element: &Element,
@@ -181,17 +181,19 @@ impl Reader<'_> {
             .array("offset")?
             .map_or(DVec3::ZERO, DVec3::from_array);
         let angles: [f64; 3] = attributes.array("euler")?.unwrap_or_default();
-        let turn = |times: f64| euler_rotation(angles.map(|angle| times * angle), self.settings);
+        let copy_rotation =
+            |times: f64| euler_rotation(angles.map(|angle| times * angle), self.settings);
         let digits = (count - 1).to_string().len();
-        let mut at = DVec3::ZERO;
+        let mut position = DVec3::ZERO;
         for k in 0..count {
-            let rotation = turn(k as f64);
-            let moved = Pose::new(at, rotation).map_err(|_| attributes.invalid("offset"))?;
-            at += rotation * offset;
+            let rotation = copy_rotation(k as f64);
+            let copy_pose =
+                Pose::new(position, rotation).map_err(|_| attributes.invalid("offset"))?;
+            position += rotation * offset;
             let separator = attributes.get("sep").unwrap_or("");
             let suffix = format!("{separator}{k:0digits$}{}", place.suffix);
             let inner = Place {
-                frame: place.frame.compose(&moved),
+                frame: place.frame.compose(&copy_pose),
                 suffix: &suffix,
                 ..*place
             };
@@ -212,7 +214,7 @@ impl Reader<'_> {
             .map_or_else(|| format!("body{number}"), str::to_owned);
         let pose = place.frame.compose(&read_pose(attributes, self.settings)?);
         let mut joints = Vec::new();
-        // The user of the simulation moves this body freely.
+        // In MuJoCo, the user of the simulation moves a `mocap` body freely.
         if attributes.truth_or("mocap", false)? {
             joints.push(MjcfJoint {
                 name: format!("{name}/mocap"),
@@ -288,10 +290,10 @@ impl Reader<'_> {
             .array("axis")?
             .map_or(DVec3::Z, DVec3::from_array);
         let axis = attributes.direction("axis", axis)?;
-        let of_compiler = self.settings.aligns_free_bodies;
+        let default_align = self.settings.aligns_free_bodies;
         let is_aligned = match attributes.get("align") {
-            None | Some("auto") => of_compiler,
-            Some(_) => attributes.truth_or("align", of_compiler)?,
+            None | Some("auto") => default_align,
+            Some(_) => attributes.truth_or("align", default_align)?,
         };
         let scale = |position: f64| match kind {
             MjcfJointKind::Hinge => self.settings.radians(position),
@@ -307,7 +309,7 @@ impl Reader<'_> {
             anchor: frame.transform_point(anchor),
             axis: frame.rotation() * axis,
             limits: match kind {
-                // A free joint has no limits. Those of a ball joint are ignored.
+                // A free joint has no limits. The limits of a ball joint are ignored.
                 MjcfJointKind::Free | MjcfJointKind::Ball => None,
                 MjcfJointKind::Hinge | MjcfJointKind::Slide => {
                     self.limits(attributes)?.map(|limits| limits.map(scale))
@@ -320,13 +322,13 @@ impl Reader<'_> {
 
     fn limits(&self, attributes: &Attributes) -> Result<Option<[f64; 2]>, MjcfError> {
         let range: Option<[f64; 2]> = attributes.array("range")?;
-        let proper = range.filter(|[low, high]| low < high && self.settings.has_limits);
+        let valid_range = range.filter(|[low, high]| low < high && self.settings.has_limits);
         match attributes.get("limited") {
             // An empty range gives no limits.
-            None | Some("auto") => Ok(proper.filter(|_| self.settings.limits_follow_ranges)),
-            Some(_) if attributes.truth_or("limited", false)? => {
-                proper.map(Some).ok_or_else(|| attributes.invalid("range"))
-            }
+            None | Some("auto") => Ok(valid_range.filter(|_| self.settings.limits_follow_ranges)),
+            Some(_) if attributes.truth_or("limited", false)? => valid_range
+                .map(Some)
+                .ok_or_else(|| attributes.invalid("range")),
             Some(_) => Ok(None),
         }
     }

@@ -50,7 +50,7 @@ impl Classes {
             .filter(|element| element.name != "default")
         {
             let merged = match attributes.get(&element.name) {
-                Some(of_class) => element.attributes.over(of_class)?,
+                Some(class_attributes) => element.attributes.over(class_attributes)?,
                 None => element.attributes.clone(),
             };
             attributes.insert(element.name.clone(), merged);
@@ -80,26 +80,30 @@ impl Classes {
         class.ok_or_else(|| MjcfError::unknown_name("class", name))
     }
 
-    /// Returns the attributes of an element merged over those of its class: its own class, or else the default class
-    /// of its body.
+    /// Returns the attributes of an element merged with the attributes of its class. An element without a class has the
+    /// default class of its body.
     pub(super) fn merged(
         &self,
         element: &Element,
-        of_body: Option<&str>,
+        body_class: Option<&str>,
     ) -> Result<Attributes, MjcfError> {
-        self.merged_as(&element.name, element, of_body)
+        self.merged_as(&element.name, element, body_class)
     }
 
-    /// Like [`Classes::merged`], for elements that classes list under another name.
+    /// Returns the merged attributes of an element that classes list under another name, like [`Classes::merged`].
     pub(super) fn merged_as(
         &self,
         name: &str,
         element: &Element,
-        of_body: Option<&str>,
+        body_class: Option<&str>,
     ) -> Result<Attributes, MjcfError> {
-        let class = element.attributes.get("class").or(of_body).unwrap_or(MAIN);
+        let class = element
+            .attributes
+            .get("class")
+            .or(body_class)
+            .unwrap_or(MAIN);
         match self.attributes_of(class)?.get(name) {
-            Some(of_class) => element.attributes.over(of_class),
+            Some(class_attributes) => element.attributes.over(class_attributes),
             None => Ok(element.attributes.clone()),
         }
     }

@@ -20,7 +20,7 @@ use std::sync::Arc;
 const FIRST_HIDDEN_GROUP: i32 = 3;
 
 /// The geom types that accept `fromto`.
-const BETWEEN_POINTS: [&str; 4] = ["capsule", "cylinder", "box", "ellipsoid"];
+const TYPES_WITH_FROMTO: [&str; 4] = ["capsule", "cylinder", "box", "ellipsoid"];
 
 /// Converts the geoms of a model into bodies and planes.
 pub(super) struct GeomReader<'r> {
@@ -32,11 +32,9 @@ pub(super) struct GeomReader<'r> {
 impl GeomReader<'_> {
     /// Adds the geoms of a body to its link.
     pub(super) fn add_to(&self, link: &mut Link, body: &MjcfBody) -> Result<(), RobotFileError> {
-        for (number, geom) in body.geoms.iter().enumerate() {
+        for (index, geom) in body.geoms.iter().enumerate() {
             self.add_geom(link, geom).map_err(|error| {
-                let name = geom
-                    .name()
-                    .map_or_else(|| number.to_string(), str::to_owned);
+                let name = geom.name().map_or_else(|| index.to_string(), str::to_owned);
                 error.within("geom", &name)
             })?;
         }
@@ -54,7 +52,7 @@ impl GeomReader<'_> {
             return Ok(());
         }
         let kind = attributes.get("type").unwrap_or("sphere");
-        if attributes.get("fromto").is_some() && !BETWEEN_POINTS.contains(&kind) {
+        if attributes.get("fromto").is_some() && !TYPES_WITH_FROMTO.contains(&kind) {
             return Err(attributes.invalid("fromto").into());
         }
         let body = match kind {
@@ -86,7 +84,7 @@ impl GeomReader<'_> {
         match &asset.source {
             MeshSource::File(uri) => self.meshes.body(self.file(uri)?, asset.map),
             MeshSource::Builtin => Err(unsupported("a mesh that MuJoCo makes")),
-            MeshSource::Given { vertices, faces } => {
+            MeshSource::InModel { vertices, faces } => {
                 let mesh = match &faces[..] {
                     [] => hull_mesh(vertices)?,
                     faces => TriangleMesh::new(vertices.clone(), faces)?,
@@ -140,7 +138,7 @@ fn primitive(geom: &MjcfGeom, kind: &str) -> Result<(Body, Pose), RobotFileError
     Ok((body, pose))
 }
 
-/// Returns the pose and the sizes of a geom; sizes are half lengths. `fromto` may specify both.
+/// Returns the pose and the sizes of a geom. Sizes are half lengths. `fromto` may specify the pose and a size.
 fn pose_and_sizes(geom: &MjcfGeom, kind: &str) -> Result<(Pose, Vec<f64>), RobotFileError> {
     let attributes = &geom.attributes;
     let sizes = attributes.numbers("size")?.unwrap_or_default();
@@ -153,23 +151,23 @@ fn pose_and_sizes(geom: &MjcfGeom, kind: &str) -> Result<(Pose, Vec<f64>), Robot
                 return Err(attributes.invalid("pos").into());
             }
             let pose = Pose::new(0.5 * (from + to), rotation_of_z_to(axis))?;
-            let half = 0.5 * from.distance(to);
-            let width = sizes.first().copied().unwrap_or(0.0);
+            let half_length = 0.5 * from.distance(to);
+            let radius = sizes.first().copied().unwrap_or(0.0);
             let sizes = match kind {
-                "capsule" | "cylinder" => vec![width, half],
-                _ => vec![width, width, half],
+                "capsule" | "cylinder" => vec![radius, half_length],
+                _ => vec![radius, radius, half_length],
             };
             (geom.frame.compose(&pose), sizes)
         }
     };
-    let is_shape = kind == "sphere" || BETWEEN_POINTS.contains(&kind);
-    let used = match kind {
+    let is_shape = kind == "sphere" || TYPES_WITH_FROMTO.contains(&kind);
+    let size_count = match kind {
         "sphere" => 1,
         "capsule" | "cylinder" => 2,
         _ => 3,
     };
-    let is_positive = sizes.iter().take(used).all(|&size| size > 0.0);
-    if sizes.len() > 3 || is_shape && !(is_positive && sizes.len() >= used) {
+    let is_positive = sizes.iter().take(size_count).all(|&size| size > 0.0);
+    if sizes.len() > 3 || is_shape && !(is_positive && sizes.len() >= size_count) {
         return Err(attributes.invalid("size").into());
     }
     Ok((pose, sizes))

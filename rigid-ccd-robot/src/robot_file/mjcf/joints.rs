@@ -16,7 +16,7 @@ pub(super) struct JointReader<'r> {
     mimic_rules: MimicRules<'r>,
 }
 
-/// For each joint that follows another one, by name, the rule with which it does.
+/// For each joint that follows another one, by name, its position rule.
 type MimicRules<'r> = HashMap<&'r str, PositionRule>;
 
 /// The chain of joints between a body and its parent, while it is built.
@@ -26,8 +26,8 @@ struct Chain<'r> {
     /// The links between the parent and the body.
     links: Vec<Link>,
     joints: Vec<Joint>,
-    /// The last link of the chain so far.
-    at: String,
+    /// The name of the last link.
+    last_link: String,
     /// The pose of the body's frame in the frame of the last link, with all remaining joints at their references.
     frame: Pose,
 }
@@ -53,12 +53,12 @@ impl<'r> JointReader<'r> {
             body: name,
             links: Vec::new(),
             joints: Vec::new(),
-            at: self.mjcf.bodies[parent].name.clone(),
+            last_link: self.mjcf.bodies[parent].name.clone(),
             frame: body.pose,
         };
         for (k, joint) in body.joints.iter().enumerate() {
             let is_last = k + 1 == body.joints.len();
-            let ends_in_frame = joint.anchor == DVec3::ZERO || !joint.kind.turns();
+            let ends_in_frame = joint.anchor == DVec3::ZERO || !joint.kind.is_rotational();
             let child = if is_last && ends_in_frame {
                 name.clone()
             } else {
@@ -67,7 +67,7 @@ impl<'r> JointReader<'r> {
             self.add_joint(&mut chain, joint, child)
                 .map_err(|error| RobotFileError::from(error).within("joint", &joint.name))?;
         }
-        if chain.at != *name {
+        if chain.last_link != *name {
             let fixed = trajectory::Joint::fixed(chain.frame);
             let rule = PositionRule::Independent;
             chain.push(format!("{name}/fixed"), name.clone(), fixed, rule);
@@ -87,14 +87,14 @@ impl<'r> JointReader<'r> {
         let name = &joint.name;
         match joint.kind {
             MjcfJointKind::Hinge => {
-                // At position 0 the body is turned back from its reference position.
-                let back = DQuat::from_scaled_axis(-joint.reference * joint.axis);
-                let origin = at_anchor.compose(&Pose::new(DVec3::ZERO, back)?);
-                let moving = trajectory::Joint::revolute(origin, joint.axis)?;
+                // The pose in the file is the pose at the reference position. The joint's origin is the pose at 0.
+                let to_zero = DQuat::from_scaled_axis(-joint.reference * joint.axis);
+                let origin = at_anchor.compose(&Pose::new(DVec3::ZERO, to_zero)?);
+                let geometry = trajectory::Joint::revolute(origin, joint.axis)?;
                 chain.push(
                     name.clone(),
                     child,
-                    joint.limited(moving),
+                    joint.with_limits(geometry),
                     self.position_rule(name),
                 );
                 chain.frame = anchor.inverse();
@@ -103,11 +103,11 @@ impl<'r> JointReader<'r> {
                 let origin = chain
                     .frame
                     .compose(&Pose::at(-joint.reference * joint.axis)?);
-                let moving = trajectory::Joint::prismatic(origin, joint.axis)?;
+                let geometry = trajectory::Joint::prismatic(origin, joint.axis)?;
                 chain.push(
                     name.clone(),
                     child,
-                    joint.limited(moving),
+                    joint.with_limits(geometry),
                     self.position_rule(name),
                 );
                 chain.frame = Pose::IDENTITY;
@@ -117,7 +117,7 @@ impl<'r> JointReader<'r> {
                 chain.frame = anchor.inverse();
             }
             MjcfJointKind::Free => {
-                // The positions are those of the body in the world.
+                // The positions are relative to the world's origin, not to the pose in the file.
                 chain.push_compound(CompoundKind::Floating, name, child, Pose::IDENTITY)?;
                 chain.frame = Pose::IDENTITY;
             }
@@ -132,8 +132,8 @@ impl<'r> JointReader<'r> {
 }
 
 impl MjcfJointKind {
-    /// Returns whether the joint rotates about its anchor.
-    fn turns(self) -> bool {
+    /// Returns whether the joint rotates the body about the anchor only.
+    fn is_rotational(self) -> bool {
         matches!(self, MjcfJointKind::Hinge | MjcfJointKind::Ball)
     }
 
@@ -143,10 +143,10 @@ impl MjcfJointKind {
 }
 
 impl MjcfJoint {
-    fn limited(&self, moving: trajectory::Joint) -> trajectory::Joint {
+    fn with_limits(&self, geometry: trajectory::Joint) -> trajectory::Joint {
         match self.limits {
-            Some([low, high]) => moving.with_limits(low..=high),
-            None => moving,
+            Some([low, high]) => geometry.with_limits(low..=high),
+            None => geometry,
         }
     }
 }
@@ -156,15 +156,15 @@ impl Chain<'_> {
         &mut self,
         name: String,
         child: String,
-        moving: trajectory::Joint,
+        geometry: trajectory::Joint,
         position_rule: PositionRule,
     ) {
-        let parent = self.move_on_to(child);
+        let parent = self.append_link(child);
         self.joints.push(Joint {
             name,
             parent,
-            child: self.at.clone(),
-            geometry: moving,
+            child: self.last_link.clone(),
+            geometry,
             position_rule,
         });
     }
@@ -176,24 +176,24 @@ impl Chain<'_> {
         child: String,
         origin: Pose,
     ) -> Result<(), InputError> {
-        let parent = self.move_on_to(child);
-        let (links, joints) = kind.links_and_joints(name, [&parent, &self.at], origin)?;
+        let parent = self.append_link(child);
+        let (links, joints) = kind.links_and_joints(name, [&parent, &self.last_link], origin)?;
         self.links.extend(links);
         self.joints.extend(joints);
         Ok(())
     }
 
-    /// Makes `child` the last link, and returns the previous one. The link of the body itself exists already.
-    fn move_on_to(&mut self, child: String) -> String {
+    /// Makes `child` the last link, and returns the name of the previous one. The link of the body exists already.
+    fn append_link(&mut self, child: String) -> String {
         if child != self.body {
             self.links.push(Link::named(&child));
         }
-        std::mem::replace(&mut self.at, child)
+        std::mem::replace(&mut self.last_link, child)
     }
 }
 
-/// Reads the equality constraints that make a joint a linear function of another one. The first valid one of each
-/// joint applies. A constraint that would close a loop is ignored.
+/// Reads the equality constraints that make the position of a joint a linear function of another joint's position. For
+/// each joint, the first valid constraint applies. A constraint is ignored if the joint would follow itself.
 fn read_mimic_rules(mjcf: &MjcfModel) -> Result<MimicRules<'_>, MjcfError> {
     let joints = mjcf.bodies.iter().flat_map(|body| &body.joints);
     let joints: HashMap<&str, &MjcfJoint> =

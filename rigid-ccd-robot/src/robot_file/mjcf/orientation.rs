@@ -14,14 +14,14 @@ pub(super) fn read_pose(attributes: &Attributes, settings: &Settings) -> Result<
 }
 
 fn read_rotation(attributes: &Attributes, settings: &Settings) -> Result<DQuat, MjcfError> {
-    let mut given = ORIENTATIONS
+    let mut specified = ORIENTATIONS
         .iter()
         .filter(|name| attributes.get(name).is_some());
-    let Some(name) = given.next() else {
+    let Some(name) = specified.next() else {
         return Ok(DQuat::IDENTITY);
     };
     let invalid = || attributes.invalid(name);
-    if given.next().is_some() {
+    if specified.next().is_some() {
         return Err(invalid());
     }
     let direction = |v: [f64; 3]| attributes.direction(name, DVec3::from_array(v));
@@ -48,26 +48,28 @@ fn read_rotation(attributes: &Attributes, settings: &Settings) -> Result<DQuat, 
 pub(super) fn euler_rotation(angles: [f64; 3], settings: &Settings) -> DQuat {
     let mut rotation = DQuat::IDENTITY;
     for (axis, angle) in settings.euler_axes.into_iter().zip(angles) {
-        let along = match axis.to_ascii_lowercase() {
+        let axis_direction = match axis.to_ascii_lowercase() {
             'x' => DVec3::X,
             'y' => DVec3::Y,
             _ => DVec3::Z,
         };
-        let turn = DQuat::from_axis_angle(along, settings.radians(angle));
+        let axis_rotation = DQuat::from_axis_angle(axis_direction, settings.radians(angle));
         rotation = if axis.is_ascii_lowercase() {
-            rotation * turn
+            rotation * axis_rotation
         } else {
-            turn * rotation
+            axis_rotation * rotation
         };
     }
     rotation
 }
 
-/// Returns the smallest rotation that maps the z axis to a unit vector. Like MuJoCo's, it is about the x axis if the
-/// two are nearly parallel.
+/// Returns the smallest rotation that maps the z axis to a unit vector. As in MuJoCo, the rotation axis is x if the
+/// vector is nearly parallel to z.
 pub(super) fn rotation_of_z_to(axis: DVec3) -> DQuat {
-    let across = DVec3::Z.cross(axis);
-    let is_parallel = across.length() < 1e-10;
-    let along = unit(across).filter(|_| !is_parallel).unwrap_or(DVec3::X);
-    DQuat::from_axis_angle(along, across.length().atan2(axis.z))
+    let cross_product = DVec3::Z.cross(axis);
+    let is_parallel = cross_product.length() < 1e-10;
+    let rotation_axis = unit(cross_product)
+        .filter(|_| !is_parallel)
+        .unwrap_or(DVec3::X);
+    DQuat::from_axis_angle(rotation_axis, cross_product.length().atan2(axis.z))
 }

@@ -18,7 +18,7 @@ pub(super) struct Settings {
     pub(super) skips_parents: bool,
     pub(super) has_limits: bool,
     pub(super) has_equalities: bool,
-    /// Whether the margin of the options replaces those of geoms and pairs.
+    /// Whether the margin of the options replaces the margins of geoms and pairs.
     overrides_margins: bool,
     margin: f64,
     mesh_folder: PathBuf,
@@ -47,7 +47,7 @@ impl Settings {
             .filter(|section| section.name == "compiler");
         let compilers: Vec<&Attributes> = compilers.map(|section| &section.attributes).collect();
         for compiler in &compilers {
-            settings.set(compiler)?;
+            settings.set_compiler(compiler)?;
         }
         // The last folder counts, even if empty. Within one element, `meshdir` takes precedence over `assetdir`.
         let mut folders = compilers
@@ -95,7 +95,7 @@ impl Settings {
         Ok(())
     }
 
-    fn set(&mut self, compiler: &Attributes) -> Result<(), MjcfError> {
+    fn set_compiler(&mut self, compiler: &Attributes) -> Result<(), MjcfError> {
         match compiler.get("angle") {
             Some("radian") => self.has_degrees = false,
             Some("degree") => self.has_degrees = true,
@@ -110,12 +110,12 @@ impl Settings {
         }
         if let Some(text) = compiler.get("eulerseq") {
             let axes: Vec<char> = text.chars().collect();
-            let known = |axis: &char| "xyzXYZ".contains(*axis);
+            let is_axis = |axis: &char| "xyzXYZ".contains(*axis);
             let [a, b, c] = axes[..] else {
                 return Err(compiler.invalid("eulerseq"));
             };
             self.euler_axes = [a, b, c];
-            if !self.euler_axes.iter().all(known) {
+            if !self.euler_axes.iter().all(is_axis) {
                 return Err(compiler.invalid("eulerseq"));
             }
         }
@@ -125,7 +125,7 @@ impl Settings {
         Ok(())
     }
 
-    /// Returns the margin that replaces those of geoms and pairs; `None` if theirs apply.
+    /// Returns the margin that replaces the margins of geoms and pairs; `None` if these are not replaced.
     pub(super) fn margin(&self) -> Option<f64> {
         self.overrides_margins.then_some(self.margin)
     }
