@@ -165,7 +165,7 @@ fn what_is_not_known_is_refused() {
         (
             "<robot name=\"arm\"",
             "<robot name=\"arm\" version=\"9.9\"",
-            "version=\"9.9\" of URDF is not known",
+            "version=\"9.9\" of URDF is not supported",
         ),
         (
             "<robot name=\"arm\"",
