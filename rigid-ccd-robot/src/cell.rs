@@ -35,7 +35,7 @@ pub struct Cell {
     /// The convex parts of all bodies, sorted by body.
     parts: Vec<HullPart>,
     robot_part_count: usize,
-    /// The link and the pose of each body that the robot carries. Same indices as `bodies`.
+    /// The link and the pose of each body of the robot, attached bodies included. Same indices as `bodies`.
     robot_body_placements: Vec<RobotBodyPlacement>,
     obstacle_names: Vec<String>,
     margins: Margins,
@@ -45,7 +45,7 @@ pub struct Cell {
     smallest_item: OnceLock<Option<(usize, f64)>>,
 }
 
-/// The link that carries a body, and the body's pose on it.
+/// The link to which a body is fixed, and the body's pose in the link's frame.
 #[derive(Clone, Debug)]
 struct RobotBodyPlacement {
     /// The index of the link.
@@ -75,14 +75,14 @@ impl<'c> Item<'c> {
     }
 }
 
-/// A body of a cell, and the link that carries it.
+/// A body of a cell, and the link to which it is fixed.
 #[derive(Clone, Copy, Debug)]
 pub struct AttachedBody<'c> {
     /// The link, attached body or obstacle that the body belongs to.
     pub item: Item<'c>,
     /// The body.
     pub body: &'c Body,
-    /// The index of the link that carries the body: the base for an obstacle.
+    /// The index of the link to which the body is fixed; for an obstacle, the base.
     pub link: usize,
     /// The pose of the body in the frame of the link.
     pub pose: Pose,
@@ -108,15 +108,12 @@ impl Cell {
         };
         for link in 0..cell.robot.links().len() {
             for body in cell.robot.links()[link].bodies.clone() {
-                cell.add_robot_body(
-                    body.body,
-                    RobotBodyPlacement::for_link_body(link, body.pose),
-                );
+                cell.add_to_robot(Some(body.body), (link, body.pose), None);
             }
         }
         for link in 0..cell.robot.links().len() {
             for plane in cell.robot.links()[link].planes.clone() {
-                cell.add_link_plane(RobotBodyPlacement::for_link_body(link, plane));
+                cell.add_to_robot(None, (link, plane), None);
             }
         }
         cell
@@ -186,13 +183,8 @@ impl Cell {
         let name = name.into();
         self.check_new_name(&name)?;
         RobotError::check_pose("attached body", &name, &pose)?;
-        let placement = RobotBodyPlacement {
-            link,
-            pose_in_link: pose,
-            attached_name: Some(name),
-        };
         let index = self.robot_body_placements.len();
-        self.add_robot_body(body.into(), placement);
+        self.add_to_robot(Some(body.into()), (link, pose), Some(name));
         self.allow_contacts_of_attached(index, &may_touch);
         Ok(())
     }
@@ -227,8 +219,8 @@ impl Cell {
 
     /// Returns the names of the attached bodies in the order of their attachment.
     pub fn attached_names(&self) -> impl Iterator<Item = &str> {
-        let placement = self.robot_body_placements.iter();
-        placement.filter_map(|placement| placement.attached_name.as_deref())
+        let placements = self.robot_body_placements.iter();
+        placements.filter_map(|placement| placement.attached_name.as_deref())
     }
 
     /// Returns the link, attached body or obstacle with this name.
@@ -255,24 +247,22 @@ impl Cell {
         &self,
         configuration: &[f64],
     ) -> Result<Vec<(Item<'_>, &Body, Pose)>, RobotError> {
-        let robot_bodies = self.robot_body_placements.iter().map(|placement| {
-            let link = self
-                .robot
-                .pose(&self.robot.links()[placement.link].name, configuration)?;
-            Ok::<Pose, RobotError>(link.compose(&placement.pose_in_link))
+        let bodies = self.carried_bodies().map(|carried| {
+            let pose = match carried.item {
+                Item::Obstacle(_) => carried.pose,
+                Item::Link(_) | Item::Attached(_) => {
+                    let link = &self.robot.links()[carried.link].name;
+                    let link_pose = self.robot.pose(link, configuration)?;
+                    link_pose.compose(&carried.pose)
+                }
+            };
+            Ok((carried.item, carried.body, pose))
         });
-        let obstacles = self.bodies[self.robot_body_count()..]
-            .iter()
-            .map(|placed| Ok(placed.pose));
-        let poses = robot_bodies.chain(obstacles).enumerate();
-        let placed = poses.map(|(index, pose)| {
-            let body: &Body = &self.bodies[index].body;
-            Ok((self.item_of_body(index), body, pose?))
-        });
-        placed.collect()
+        bodies.collect()
     }
 
-    /// Returns all bodies, each with the link that carries it. The order is that of [`Cell::placed_bodies`].
+    /// Returns all bodies, each with the link to which it is fixed. The order is the same as in
+    /// [`Cell::placed_bodies`].
     pub fn carried_bodies(&self) -> impl ExactSizeIterator<Item = AttachedBody<'_>> {
         let bodies = self.bodies.iter().enumerate();
         bodies.map(|(index, placed)| {
@@ -294,12 +284,12 @@ impl Cell {
         &self.kinematics
     }
 
-    /// Returns all bodies: those that the robot carries, then the obstacles.
+    /// Returns all bodies: first the robot's, attached bodies included, then the obstacles.
     pub(crate) fn bodies(&self) -> &[PlacedBody] {
         &self.bodies
     }
 
-    /// Returns the number of bodies that the robot carries.
+    /// Returns the number of the robot's bodies, attached bodies included.
     pub(crate) fn robot_body_count(&self) -> usize {
         self.robot_body_placements.len()
     }
@@ -313,7 +303,7 @@ impl Cell {
         self.robot_part_count
     }
 
-    /// Returns the index of the link that carries a body of the robot.
+    /// Returns the index of the link to which a body of the robot is fixed.
     pub(crate) fn link_of(&self, body: usize) -> usize {
         self.robot_body_placements[body].link
     }
@@ -335,13 +325,25 @@ impl Cell {
         }
     }
 
-    /// Adds a body that the robot carries.
-    fn add_robot_body(&mut self, body: Arc<Body>, placement: RobotBodyPlacement) {
-        let (frame, link_pose) = self.kinematics.link_frame_and_pose(placement.link);
-        let pose = link_pose.compose(&placement.pose_in_link);
-        let placed = PlacedBody::new(body, pose, frame, MAX_LINK_PARTS);
+    /// Adds a body that is fixed to a link, or the plane of a static link if `body` is `None`.
+    fn add_to_robot(
+        &mut self,
+        body: Option<Arc<Body>>,
+        (link, pose_in_link): (usize, Pose),
+        attached_name: Option<String>,
+    ) {
+        let (frame, link_pose) = self.kinematics.link_frame_and_pose(link);
+        let pose = link_pose.compose(&pose_in_link);
+        let placed = match body {
+            Some(body) => PlacedBody::new(body, pose, frame, MAX_LINK_PARTS),
+            None => PlacedBody::for_plane(pose, self.plane_reach()),
+        };
         let index = self.robot_body_placements.len();
-        self.robot_body_placements.push(placement);
+        self.robot_body_placements.push(RobotBodyPlacement {
+            link,
+            pose_in_link,
+            attached_name,
+        });
         self.robot_part_count += self.insert(index, placed);
         self.fit_planes();
     }
@@ -374,13 +376,13 @@ impl Cell {
     fn remove(&mut self, index: usize) {
         self.bodies.remove(index);
         self.smallest_item = OnceLock::new();
-        let after_removal = |body: usize| match body.cmp(&index) {
+        let index_after_removal = |body: usize| match body.cmp(&index) {
             Ordering::Less => Some(body),
             Ordering::Equal => None,
             Ordering::Greater => Some(body - 1),
         };
-        self.margins.remove_body(index, after_removal);
-        self.allowed.reindex(after_removal);
+        self.margins.remove_body(index, index_after_removal);
+        self.allowed.reindex(index_after_removal);
         self.parts.retain(|part| part.owner != index);
         for part in &mut self.parts {
             if part.owner > index {
@@ -400,7 +402,10 @@ impl Cell {
     }
 
     fn obstacle_index(&self, name: &str) -> Result<usize, RobotError> {
-        let index = self.obstacle_names.iter().position(|other| other == name);
+        let index = self
+            .obstacle_names
+            .iter()
+            .position(|obstacle| obstacle == name);
         index.ok_or_else(|| RobotError::NoSuchObstacle { name: name.into() })
     }
 
@@ -409,16 +414,6 @@ impl Cell {
             |placement: &RobotBodyPlacement| placement.attached_name.as_deref() == Some(name);
         let index = self.robot_body_placements.iter().position(has_name);
         index.ok_or_else(|| RobotError::NoSuchAttachedBody { name: name.into() })
-    }
-}
-
-impl RobotBodyPlacement {
-    fn for_link_body(link: usize, pose: Pose) -> Self {
-        RobotBodyPlacement {
-            link,
-            pose_in_link: pose,
-            attached_name: None,
-        }
     }
 }
 

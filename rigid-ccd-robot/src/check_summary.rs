@@ -1,4 +1,4 @@
-//! Summarises what is checked: counts of links, bodies and pairs.
+//! A summary of what is checked: counts of links, bodies and pairs.
 
 use crate::cell::Cell;
 use crate::pairs::LinkPairs;
@@ -7,7 +7,7 @@ use crate::robot::Robot;
 use crate::skip_reason::LeftOutPairs;
 use std::fmt;
 
-/// Counts what is checked of a robot or a cell. Its text is one line.
+/// Counts of the checked links, bodies and pairs of a robot or a cell. Its text is one line.
 ///
 /// [`LinkPairs::check_summary`] creates it for a robot, [`Cell::check_summary`] for a cell.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub struct CheckSummary {
     pub link_count: usize,
     /// The number of bodies of all links, planes included.
     pub body_count: usize,
-    /// The number of links without bodies. They are checked against nothing.
+    /// The number of links without bodies. Such a link is not checked.
     pub bare_link_count: usize,
     /// The number of pairs of links that are checked.
     pub checked_pair_count: usize,
@@ -27,7 +27,7 @@ pub struct CheckSummary {
     pub surroundings: Option<Surroundings>,
 }
 
-/// Counts of what a cell holds besides its robot.
+/// Counts of the obstacles, the attached bodies and the allowed contacts of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Surroundings {
@@ -40,7 +40,7 @@ pub struct Surroundings {
 }
 
 impl LinkPairs {
-    /// Returns the summary for a robot. The pairs must be those of this robot.
+    /// Returns the summary for a robot, to which these pairs must belong.
     pub fn check_summary(&self, robot: &Robot) -> CheckSummary {
         let links = robot.links().iter();
         CheckSummary {
@@ -86,15 +86,15 @@ impl fmt::Display for CheckSummary {
         for LeftOutPairs { reason, pairs } in &self.left_out_pairs {
             write!(f, ", {} not ({reason})", pairs.len())?;
         }
-        let Some(around) = self.surroundings else {
+        let Some(surroundings) = self.surroundings else {
             return Ok(());
         };
-        write!(f, "; {}", counted(around.obstacle_count, "obstacle"))?;
-        if around.attached_count > 0 {
-            write!(f, ", {} attached", around.attached_count)?;
+        write!(f, "; {}", counted(surroundings.obstacle_count, "obstacle"))?;
+        if surroundings.attached_count > 0 {
+            write!(f, ", {} attached", surroundings.attached_count)?;
         }
-        if around.allowed_contact_count > 0 {
-            let allowed = counted(around.allowed_contact_count, "contact");
+        if surroundings.allowed_contact_count > 0 {
+            let allowed = counted(surroundings.allowed_contact_count, "contact");
             write!(f, ", {allowed} allowed")?;
         }
         Ok(())

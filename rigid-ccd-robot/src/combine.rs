@@ -5,19 +5,19 @@ use crate::pairs::LinkPairs;
 use crate::robot::{CompoundKind, Joint, Link, PositionRule, Robot};
 use rigid_ccd::{Pose, trajectory};
 
-/// The name of the common base link. Underscores are appended if a robot already has a link of that name.
+/// The name of the common base link. Underscores are appended while a robot has a link of that name.
 const WORLD: &str = "world";
 
 /// A robot, and where to place its base among other robots.
 #[derive(Clone, Copy, Debug)]
 pub struct PlacedRobot<'a> {
-    /// The prefix of the robot's link and joint names, which a slash separates from them. Empty to keep the names.
+    /// The prefix of the robot's link and joint names, without the slash that follows it. Empty to keep the names.
     pub name: &'a str,
     /// The robot.
     pub robot: &'a Robot,
     /// The pairs of the robot's links that are checked.
     pub pairs: &'a LinkPairs,
-    /// The link that carries the base, by its combined name, such as `arm/flange`; `None` for the world.
+    /// The link to which the base is attached, by its combined name, such as `arm/flange`; `None` for the world.
     pub carrier: Option<&'a str>,
     /// The pose of the base in the frame of the carrier or the world. For a moving base, the pose at positions 0.
     pub pose: Pose,
@@ -27,17 +27,17 @@ pub struct PlacedRobot<'a> {
 
 impl Robot {
     /// Combines robots into one robot, whose base is a link `world`. A configuration lists the positions of the first
-    /// robot, then those of the second, and so on.
+    /// robot, then the positions of the second, and so on.
     ///
-    /// All robots are checked against each other. Within each robot, the pairs that were given for it are checked. The
-    /// positions of a moving base come first, with names such as `cart/base/x`.
+    /// All robots are checked against each other. Within a robot, its [`PlacedRobot::pairs`] are checked. The positions
+    /// of a moving base come before the other positions of its robot, with names such as `cart/base/x`.
     ///
-    /// A moving obstacle is a robot of one link with a moving base. A gripper is a robot that a link of the arm
-    /// carries; it is not checked against the links that are fixed to its base.
+    /// A moving obstacle is a robot of one link with a moving base. A gripper is a robot whose base is attached to a
+    /// link of the arm. It is not checked against the links that are fixed to its base.
     ///
     /// # Errors
-    /// [`RobotError`] for repeated names, a carrier that is not a link, carriers that carry each other, a planar base
-    /// without a normal, and pairs of another robot.
+    /// [`RobotError`] for repeated names, a carrier that is not a link, robots that are attached to each other in a
+    /// loop, a planar base without a normal, and pairs of another robot.
     ///
     /// ```
     /// use rigid_ccd::{Body, Pose};
@@ -65,51 +65,47 @@ impl Robot {
     /// ```
     pub fn combine(robots: &[PlacedRobot<'_>]) -> Result<(Robot, LinkPairs), RobotError> {
         let mut world = WORLD.to_owned();
-        let names = || robots.iter().flat_map(PlacedRobot::link_names);
-        while names().any(|name| name == world) {
+        let link_names = || robots.iter().flat_map(PlacedRobot::link_names);
+        while link_names().any(|name| name == world) {
             world.push('_');
         }
         let mut links = vec![Link::named(&world)];
         let mut joints = Vec::new();
         let mut first_links = Vec::new();
-        // Links of moving bases come last, so that the order of each robot's links is kept.
+        // The links of moving bases come last: the links of a robot stay consecutive and in order.
         let mut base_links = Vec::new();
         for placed in robots {
             let carrier = placed.carrier.unwrap_or(&world);
-            let (own_links, own_joints) = placed.base_joints(carrier)?;
-            base_links.extend(own_links);
-            joints.extend(own_joints);
+            let (links_of_base, joints_of_base) = placed.base_joints(carrier)?;
+            base_links.extend(links_of_base);
+            joints.extend(joints_of_base);
             first_links.push(links.len());
             links.extend(placed.robot.links().iter().map(|link| Link {
                 name: placed.prefixed(&link.name),
                 bodies: link.bodies.clone(),
                 planes: link.planes.clone(),
             }));
-            joints.extend(
-                placed
-                    .robot
-                    .joints()
-                    .iter()
-                    .map(|joint| placed.joint(joint)),
-            );
+            let robot_joints = placed.robot.joints().iter();
+            joints.extend(robot_joints.map(|joint| placed.with_prefixed_names(joint)));
         }
         links.extend(base_links);
         let remarks = robots.iter().flat_map(|placed| {
-            let own = placed.robot.file_remarks().iter();
-            own.map(|remark| remark.with_robot_name(|name| placed.prefixed(name)))
+            let remarks = placed.robot.file_remarks().iter();
+            remarks.map(|remark| remark.with_robot_name(|name| placed.prefixed(name)))
         });
         let combined = Robot::new(links, joints)?.with_file_remarks(remarks);
         let mut pairs = LinkPairs::from_robot(&combined);
         for (placed, first) in robots.iter().zip(first_links) {
-            let own = first..first + placed.robot.links().len();
-            if !pairs.replace_within(own, placed.pairs) {
+            let links_of_robot = first..first + placed.robot.links().len();
+            if !pairs.replace_within(links_of_robot, placed.pairs) {
                 return Err(RobotError::PairsOfAnotherRobot {
                     robot: placed.name.to_owned(),
                 });
             }
-            let own = placed.pairs.file_remarks().iter();
-            pairs
-                .add_file_remarks(own.map(|own| own.with_robot_name(|name| placed.prefixed(name))));
+            let remarks = placed.pairs.file_remarks().iter();
+            pairs.add_file_remarks(
+                remarks.map(|remark| remark.with_robot_name(|name| placed.prefixed(name))),
+            );
         }
         Ok((combined, pairs))
     }
@@ -125,7 +121,7 @@ impl PlacedRobot<'_> {
     fn prefixed(&self, name: &str) -> String {
         match self.name {
             "" => name.to_owned(),
-            own => format!("{own}/{name}"),
+            robot => format!("{robot}/{name}"),
         }
     }
 
@@ -133,13 +129,8 @@ impl PlacedRobot<'_> {
     fn base_joints(&self, carrier: &str) -> Result<(Vec<Link>, Vec<Joint>), RobotError> {
         let base = self.prefixed(&self.robot.links()[self.robot.base()].name);
         let mut name = self.prefixed("base");
-        let has_joint = |name: &String| {
-            let joints = self.robot.joints().iter();
-            joints
-                .map(|joint| self.prefixed(&joint.name))
-                .any(|own| own == *name)
-        };
-        while has_joint(&name) {
+        let joints = || self.robot.joints().iter();
+        while joints().any(|joint| self.prefixed(&joint.name) == name) {
             name.push('_');
         }
         if let Some(kind) = self.base_motion {
@@ -156,25 +147,18 @@ impl PlacedRobot<'_> {
     }
 
     /// Returns a joint of the robot with all names prefixed.
-    fn joint(&self, joint: &Joint) -> Joint {
-        Joint {
-            name: self.prefixed(&joint.name),
-            parent: self.prefixed(&joint.parent),
-            child: self.prefixed(&joint.child),
-            geometry: joint.geometry.clone(),
-            position_rule: match &joint.position_rule {
-                PositionRule::Independent => PositionRule::Independent,
-                PositionRule::Follows {
-                    joint,
-                    multiplier,
-                    offset,
-                } => PositionRule::Follows {
-                    joint: self.prefixed(joint),
-                    multiplier: *multiplier,
-                    offset: *offset,
-                },
-            },
+    fn with_prefixed_names(&self, joint: &Joint) -> Joint {
+        let mut joint = joint.clone();
+        for name in [&mut joint.name, &mut joint.parent, &mut joint.child] {
+            *name = self.prefixed(name);
         }
+        if let PositionRule::Follows {
+            joint: followed, ..
+        } = &mut joint.position_rule
+        {
+            *followed = self.prefixed(followed);
+        }
+        joint
     }
 }
 

@@ -14,8 +14,8 @@ pub enum RobotError {
         /// The name.
         name: String,
     },
-    /// Two items of a cell can never be checked: both are obstacles, no joint moves one relative to the other, or they
-    /// are the same.
+    /// A pair of items can never be checked: both are obstacles, no joint moves one relative to the other, or they are
+    /// the same item.
     #[error("`{a}` and `{b}` are never compared")]
     NeverCompared {
         /// The name of the first item.
@@ -23,8 +23,8 @@ pub enum RobotError {
         /// The name of the second item.
         b: String,
     },
-    /// The given pairs of links belong to another robot.
-    #[error("the pairs of links given with robot `{robot}` are of another robot")]
+    /// The pairs of a [`PlacedRobot`](crate::PlacedRobot) belong to another robot.
+    #[error("the pairs of links for robot `{robot}` belong to another robot")]
     PairsOfAnotherRobot {
         /// The name of the robot.
         robot: String,
@@ -91,7 +91,7 @@ pub enum RobotError {
     },
     /// A link is neither the parent nor the child of a joint, although the robot has joints.
     #[error(
-        "link `{link}` has no joint, and a robot has one base, `{base}`; is it the name of the link that was meant?"
+        "link `{link}` has no joint, but only the base `{base}` may have no parent; is the link's name misspelt in a joint?"
     )]
     LinkWithoutJoint {
         /// The name of the link.
@@ -135,24 +135,22 @@ pub enum RobotError {
         /// The unknown name.
         followed_joint: String,
     },
-    /// A joint follows a joint without a position of its own: a fixed joint, or one that directly or indirectly
-    /// follows itself.
-    #[error("joint `{joint}` follows `{followed_joint}`, which has no position of its own")]
+    /// A joint follows a fixed joint, or a joint that directly or indirectly follows itself.
+    #[error("joint `{joint}` follows `{followed_joint}`, which is fixed or follows itself")]
     InvalidMimicJoint {
         /// The name of the joint that follows.
         joint: String,
         /// The name of the followed joint.
         followed_joint: String,
     },
-    /// A configuration has the wrong number of positions. It needs one for each joint with a position of its own.
+    /// A configuration has the wrong number of positions. It needs one for each independent joint.
     #[error("{given_count} positions for {expected_count} joints: {joint_names}")]
     WrongPositionCount {
         /// The number of positions in the configuration.
         given_count: usize,
-        /// The number of joints with a position of their own. Fixed joints and joints that follow another one have
-        /// none.
+        /// The number of independent joints: all joints except fixed joints and joints that follow another one.
         expected_count: usize,
-        /// The names of the joints with a position of their own, separated by commas.
+        /// The names of the independent joints, separated by commas.
         joint_names: String,
     },
     /// A position is outside its joint's limits or not finite, or the multiplier or offset of a mimic joint is not
@@ -187,7 +185,7 @@ impl RobotError {
         let coordinates = pose.translation().to_array();
         match coordinates
             .into_iter()
-            .find(|own| !(own.abs() <= MAX_COORDINATE))
+            .find(|coordinate| !(coordinate.abs() <= MAX_COORDINATE))
         {
             None => Ok(()),
             Some(coordinate) => Err(RobotError::TooFar {
@@ -199,11 +197,11 @@ impl RobotError {
     }
 }
 
-/// The error of a question about a cell in which no pair is checked. Any answer would say nothing.
+/// The error of a question about a cell in which no pair is checked. An answer would be meaningless.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "nothing is compared in this cell: {checked}; an obstacle is compared with links that have bodies and move, and a clearance \
-     between two links checks them"
+    "nothing is compared in this cell: {checked}; obstacles are compared with moving links that have bodies, and a clearance \
+     includes a pair of links"
 )]
 pub struct NothingCompared {
     /// The text of the [`CheckSummary`](crate::CheckSummary).
@@ -225,7 +223,7 @@ pub enum PathError {
         /// The reason.
         error: RobotError,
     },
-    /// A curve has the wrong number of joints, or a joint leaves its limits on it.
+    /// A curve has the wrong number of joints, or a joint leaves its limits on the curve.
     #[error("segment {}, after {} of it: {error}", .at.segment, .at.fraction)]
     InvalidCurvePoint {
         /// The point of the curve.
@@ -233,7 +231,8 @@ pub enum PathError {
         /// The reason.
         error: RobotError,
     },
-    /// Prismatic joints may move a body beyond the range in which a plane's box acts as a half-space.
+    /// Prismatic joints may move a body beyond the distance from the base within which a plane's box acts as a
+    /// half-space.
     #[error(
         "a body may be up to {distance} from the base, beyond the reach {reach} of the planes; limit the prismatic joints"
     )]
@@ -243,7 +242,7 @@ pub enum PathError {
         /// The distance from the base up to which planes are valid.
         reach: f64,
     },
-    /// A joint jumps: it follows another one, and its multiplier enlarges a jump of the curve.
+    /// A mimic joint jumps, because its multiplier enlarges a small jump of the joint that it follows.
     #[error(transparent)]
     Curve(#[from] CurveError),
     /// A range setting is out of its range.
@@ -296,9 +295,9 @@ pub enum CurveError {
         segment: usize,
     },
     /// The number of segments, configurations or joints does not match.
-    #[error("{given} {what} instead of {expected}, at {index}")]
+    #[error("{given} {what} instead of {expected}, at index {index}")]
     WrongCount {
-        /// The kind of what was counted.
+        /// The kind of the counted objects.
         what: &'static str,
         /// The index of the segment or configuration.
         index: usize,
@@ -321,7 +320,7 @@ pub enum CurveError {
         /// The index of the joint's position in a configuration.
         joint: usize,
     },
-    /// The position of a joint at the start of a segment differs from that at the end of the previous segment.
+    /// The position of a joint at the start of a segment differs from its position at the end of the previous segment.
     #[error("joint {joint} jumps by {jump} at the start of segment {segment}")]
     Jump {
         /// The index of the segment.

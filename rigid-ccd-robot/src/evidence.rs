@@ -57,7 +57,7 @@ pub struct Evidence {
     pub path: RecordedPath,
     /// The answer.
     pub answer: RecordedAnswer,
-    /// All bodies: those of the robot, then the obstacles.
+    /// All bodies: first the robot's, attached bodies included, then the obstacles.
     pub bodies: Vec<RecordedBody>,
     /// The digest of the checked pairs and of the distances at which they count as touching.
     pub pairs_sha256: String,
@@ -137,7 +137,9 @@ pub struct RecordedBody {
 impl RecordedPath {
     /// Creates a record of a path through configurations.
     pub fn configurations<Q: AsRef<[f64]>>(configurations: &[Q]) -> Self {
-        let copies = configurations.iter().map(|own| own.as_ref().to_vec());
+        let copies = configurations
+            .iter()
+            .map(|configuration| configuration.as_ref().to_vec());
         RecordedPath::Configurations(copies.collect())
     }
 

@@ -1,4 +1,4 @@
-//! Paths of polynomials in time, such as controllers execute.
+//! Paths of polynomials in time, such as the splines that controllers execute.
 
 mod b_spline;
 
@@ -12,8 +12,9 @@ use rigid_ccd::InputError;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-/// The largest accepted jump of a joint between segments, in radians or as a length, beyond rounding. Splines have
-/// small jumps from rounding when they are created. The motion that is skipped in such a jump need not be checked.
+/// The largest accepted jump of a joint between segments, in radians or as a length, in addition to the rounding error
+/// of the coefficients. Programs that create splines round their coefficients, which causes small jumps. The positions
+/// within such a jump are not checked.
 const MAX_JUMP: f64 = 1e-9;
 
 /// The number of halvings of a segment in the search for a point outside the joint limits.
@@ -92,11 +93,10 @@ impl TryFrom<CurveNumbers> for JointCurve {
 }
 
 impl JointCurve {
-    /// Creates a curve from polynomials. `segments[i][j]` lists the coefficients of segment `i` and joint `j`, lowest
-    /// power first, where `j` counts the joints with a position of their own. The variable is the time since the start
-    /// of the segment.
+    /// Creates a curve from polynomials. `segments[i][j]` lists the coefficients of segment `i` and independent joint
+    /// `j`, lowest power first. The variable is the time since the start of the segment.
     ///
-    /// A joint may jump by up to 1e-9 between segments. The positions skipped by the jump are not checked.
+    /// A joint may jump by up to 1e-9 between segments. The positions within the jump are not checked.
     ///
     /// # Errors
     /// [`CurveError`] for numbers that are not finite, times that do not increase, wrong numbers of segments, joints
@@ -104,7 +104,7 @@ impl JointCurve {
     pub fn from_polynomials(times: &[f64], segments: &[Vec<Vec<f64>>]) -> Result<Self, CurveError> {
         let joint_count = segments.first().map_or(0, Vec::len);
         let joints = segments.iter().flatten();
-        let degree = joints.map(|own| own.len().saturating_sub(1)).max();
+        let degree = joints.map(|powers| powers.len().saturating_sub(1)).max();
         // A constant is stored as a polynomial of degree 1.
         let degree = degree.unwrap_or(0).max(1);
         if degree > MAX_DEGREE {
@@ -121,8 +121,10 @@ impl JointCurve {
             let mut scale = DoubleDouble::from(1.0);
             for power in 0..=degree {
                 // Missing higher coefficients are 0.
-                let own = joints.iter().map(|own| own.get(power).copied());
-                coefficients.extend(own.map(|own| DoubleDouble::from(own.unwrap_or(0.0)) * scale));
+                coefficients.extend(joints.iter().map(|powers| {
+                    let coefficient = powers.get(power).copied().unwrap_or(0.0);
+                    DoubleDouble::from(coefficient) * scale
+                }));
                 scale = scale * duration;
             }
         }
@@ -181,8 +183,8 @@ impl JointCurve {
         check_times(times, derivatives[0].len().saturating_sub(1))?;
         for rows in derivatives {
             check_count("configurations", 0, rows.len(), times.len())?;
-            for (number, row) in rows.iter().enumerate() {
-                check_count("joints", number, row.as_ref().len(), joint_count)?;
+            for (index, row) in rows.iter().enumerate() {
+                check_count("joints", index, row.as_ref().len(), joint_count)?;
             }
         }
         let mut coefficients = Vec::new();
@@ -202,7 +204,7 @@ impl JointCurve {
                 })
                 .collect();
             for power in 0..COUNT {
-                coefficients.extend(by_joint.iter().map(|own| own[power]));
+                coefficients.extend(by_joint.iter().map(|powers| powers[power]));
             }
         }
         JointCurve::from_coefficients(times, (joint_count, COUNT - 1), coefficients)
@@ -213,8 +215,8 @@ impl JointCurve {
         (joint_count, degree): (usize, usize),
         coefficients: Vec<DoubleDouble>,
     ) -> Result<Self, CurveError> {
-        let parts = coefficients.into_iter().map(DoubleDouble::parts);
-        let (coefficients, low_coefficients) = parts.map(|[high, low]| (high, low)).unzip();
+        let high_and_low = coefficients.into_iter().map(DoubleDouble::parts);
+        let (coefficients, low_coefficients) = high_and_low.map(|[high, low]| (high, low)).unzip();
         JointCurve {
             times: times.to_vec(),
             joint_count,
@@ -229,8 +231,10 @@ impl JointCurve {
     fn checked(self) -> Result<Self, CurveError> {
         for segment in 0..self.segment_count() {
             for joint in 0..self.joint_count {
-                let own = (0..=self.degree).map(|power| self.coefficient(segment, power, joint));
-                if !own.flat_map(DoubleDouble::parts).all(f64::is_finite) {
+                let coefficients =
+                    (0..=self.degree).map(|power| self.coefficient(segment, power, joint));
+                let mut numbers = coefficients.flat_map(DoubleDouble::parts);
+                if !numbers.all(f64::is_finite) {
                     return Err(CurveError::NotFinite { segment, joint });
                 }
                 self.check_jump(segment, joint, 1.0)?;
@@ -239,17 +243,18 @@ impl JointCurve {
         Ok(self)
     }
 
-    /// Checks that a joint does not jump at the start of a segment. `factor` is the multiplier from the given joint to
-    /// the joint that moves.
-    fn check_jump(&self, segment: usize, joint: usize, factor: f64) -> Result<(), CurveError> {
-        let Some(before) = segment.checked_sub(1) else {
+    /// Checks that a joint of the curve, or a joint that follows it with a multiplier, does not jump at the start of a
+    /// segment. The multiplier of the joint itself is 1.
+    fn check_jump(&self, segment: usize, joint: usize, multiplier: f64) -> Result<(), CurveError> {
+        let Some(previous_segment) = segment.checked_sub(1) else {
             return Ok(());
         };
-        let before = self.polynomial(before, joint);
-        let after = self.polynomial(segment, joint);
-        let jump = factor.abs() * (after.constant() - before.value(1.0)).abs();
+        let previous = self.polynomial(previous_segment, joint);
+        let next = self.polynomial(segment, joint);
+        let factor = multiplier.abs();
+        let jump = factor * (next.constant() - previous.value(1.0)).abs();
         let rounding =
-            factor.abs() * (before.rounding_of_coefficients() + after.rounding_of_coefficients());
+            factor * (previous.rounding_of_coefficients() + next.rounding_of_coefficients());
         // Written so that NaN is refused.
         if jump <= MAX_JUMP + rounding {
             return Ok(());
@@ -303,8 +308,8 @@ impl JointCurve {
 
     /// Returns the positions of all joints at a time. A time outside the curve is clamped to its nearest end.
     pub fn positions(&self, time: f64) -> Vec<f64> {
-        let later = &self.times[1..self.segment_count()];
-        let segment = later.partition_point(|&start| start <= time);
+        let later_starts = &self.times[1..self.segment_count()];
+        let segment = later_starts.partition_point(|&start| start <= time);
         let [from, to] = [self.times[segment], self.times[segment + 1]];
         let fraction = ((time - from) / (to - from)).clamp(0.0, 1.0);
         let joints = 0..self.joint_count;
@@ -319,8 +324,8 @@ impl JointCurve {
 
     /// Returns the coefficient of one power for a joint in a segment.
     pub(crate) fn coefficient(&self, segment: usize, power: usize, joint: usize) -> DoubleDouble {
-        let number = (segment * (self.degree + 1) + power) * self.joint_count + joint;
-        DoubleDouble::from_parts([self.coefficients[number], self.low_coefficients[number]])
+        let index = (segment * (self.degree + 1) + power) * self.joint_count + joint;
+        DoubleDouble::from_parts([self.coefficients[index], self.low_coefficients[index]])
     }
 
     fn polynomial(&self, segment: usize, joint: usize) -> Polynomial {
@@ -333,13 +338,13 @@ impl JointCurve {
             segment: 0,
             fraction: 0.0,
         };
-        let refused = |at: PathPoint, error| Err(PathError::InvalidCurvePoint { at, error });
+        let error_at = |at: PathPoint, error| Err(PathError::InvalidCurvePoint { at, error });
         if let Err(error) = robot.check_position_count(self.joint_count) {
-            return refused(start, error);
+            return error_at(start, error);
         }
         for segment in 0..self.segment_count() {
             for source in robot.position_sources() {
-                self.check_jump(segment, source.position_index(), source.factor())?;
+                self.check_jump(segment, source.position_index, source.multiplier)?;
             }
             for (joint, [low, high]) in robot.limits().enumerate() {
                 let polynomial = self.polynomial(segment, joint);
@@ -358,21 +363,22 @@ impl JointCurve {
                     .unwrap_or_default();
                 let joint = joint.to_owned();
                 let error = RobotError::InvalidPosition { joint, error };
-                return refused(PathPoint { segment, fraction }, error);
+                return error_at(PathPoint { segment, fraction }, error);
             }
         }
         Ok(())
     }
 }
 
-/// Bounds the rounding error of a time between two others. A difference, a product and two sums are rounded, each
-/// relative to at most twice the larger of both.
+/// Bounds the rounding error of a time that is interpolated between two times. A difference, a product and two sums are
+/// rounded. Each is at most twice as large as the larger of the two times.
 fn time_rounding([from, to]: [f64; 2]) -> f64 {
     4.0 * f64::EPSILON * greater(from.abs(), to.abs())
 }
 
-/// Finds a point where a polynomial exceeds limits by more than its rounding error: returns its fraction of the segment
-/// and the value there. Searches by halving, down to a millionth of the segment. No proof depends on it.
+/// Returns a fraction of the segment at which a polynomial exceeds limits by more than its rounding error, and the
+/// value there; `None` if none is found. Searches by halving, down to a millionth of the segment. No proof depends on
+/// this search.
 fn find_limit_violation(polynomial: &Polynomial, [low, high]: [f64; 2]) -> Option<(f64, f64)> {
     let rounding = polynomial.rounding_of_coefficients();
     let [low, high] = [low - rounding, high + rounding];
@@ -383,22 +389,23 @@ fn find_limit_violation(polynomial: &Polynomial, [low, high]: [f64; 2]) -> Optio
             return Some((fraction, value));
         }
     }
-    let mut open = SmallVec::<[_; MAX_LIMIT_HALVINGS as usize + 1]>::new();
-    open.push((0.0, 1.0, 0));
-    while let Some((from, to, halvings)) = open.pop() {
-        let middle = 0.5 * (from + to);
-        let expanded = polynomial.expanded_about(middle);
+    let mut pending_intervals = SmallVec::<[_; MAX_LIMIT_HALVINGS as usize + 1]>::new();
+    pending_intervals.push((0.0, 1.0, 0));
+    while let Some((from, to, halvings)) = pending_intervals.pop() {
+        let midpoint = 0.5 * (from + to);
+        let expanded = polynomial.expanded_about(midpoint);
         let (value, deviation) = (
             expanded.constant(),
             expanded.deviation_bound(0.5 * (to - from)),
         );
         // Written so that NaN is outside the limits.
         if !(low <= value && value <= high) {
-            return Some((middle, value));
+            return Some((midpoint, value));
         }
         let is_inside = low <= value - deviation && value + deviation <= high;
         if !is_inside && halvings < MAX_LIMIT_HALVINGS {
-            open.extend([(middle, to, halvings + 1), (from, middle, halvings + 1)]);
+            pending_intervals
+                .extend([(midpoint, to, halvings + 1), (from, midpoint, halvings + 1)]);
         }
     }
     None
@@ -417,18 +424,18 @@ fn check_times(times: &[f64], segment_count: usize) -> Result<(), CurveError> {
 }
 
 fn check_count(
-    what: &'static str,
+    counted_objects: &'static str,
     index: usize,
-    given: usize,
+    count: usize,
     expected: usize,
 ) -> Result<(), CurveError> {
-    if given == expected {
+    if count == expected {
         return Ok(());
     }
     Err(CurveError::WrongCount {
-        what,
+        what: counted_objects,
         index,
-        given,
+        given: count,
         expected,
     })
 }

@@ -43,14 +43,14 @@ pub(crate) struct MovingJoint {
 }
 
 impl Kinematics {
-    /// Precomputes the moving joints of a robot. Fixed joints are merged into the joints that follow them.
+    /// Precomputes the moving joints of a robot. A fixed joint is merged into the joints below it in the tree.
     pub(crate) fn of_robot(robot: &Robot) -> Self {
         let mut joints: Vec<MovingJoint> = Vec::new();
         let mut links = vec![(0, Pose::IDENTITY); robot.links().len()];
-        let mut numbers = vec![None; robot.joints().len()];
-        let mut arms = 0.0;
+        let mut moving_joint_indices = vec![None; robot.joints().len()];
+        let mut arm_length_sum = 0.0;
         for (link, parent, joint) in robot.joints_parents_first() {
-            arms += robot.joints()[joint]
+            arm_length_sum += robot.joints()[joint]
                 .geometry
                 .origin()
                 .translation()
@@ -66,15 +66,15 @@ impl Kinematics {
                     continue;
                 }
             };
-            numbers[joint] = Some(joints.len());
+            moving_joint_indices[joint] = Some(joints.len());
             joints.push(MovingJoint::new(frame, source, &origin, axis, is_prismatic));
             links[link] = (joints.len(), Pose::IDENTITY);
         }
         Kinematics {
             joints,
             links,
-            moving_joint_indices: numbers,
-            arm_length_sum: arms,
+            moving_joint_indices,
+            arm_length_sum,
             total_joint_count: robot.joints().len(),
         }
     }
@@ -83,8 +83,8 @@ impl Kinematics {
         &self.joints
     }
 
-    /// Returns an upper bound of each moving joint's positions. It covers all configurations whose positions are at
-    /// most as large in absolute value as the given ones.
+    /// Returns an upper bound of each moving joint's positions, over all configurations whose positions have at most
+    /// the absolute values of the positions in `configuration`.
     pub(crate) fn magnitudes(&self, configuration: &[f64]) -> impl Iterator<Item = Magnitude> {
         self.joints.iter().map(|joint| {
             let rounding = joint.source.magnitude(configuration);
@@ -118,7 +118,7 @@ impl Kinematics {
         a
     }
 
-    /// Iterates over the joints that move two frames relative to each other.
+    /// Iterates over the joints that move two frames relative to each other, children before parents.
     pub(crate) fn joints_between(
         &self,
         [mut a, mut b]: [usize; 2],
@@ -135,7 +135,7 @@ impl Kinematics {
         })
     }
 
-    /// Computes all frames in the base, from one position for each moving joint.
+    /// Computes the poses of all frames in the base frame, from one position for each moving joint.
     pub(crate) fn place(&self, positions: impl Iterator<Item = f64>, frames: &mut Vec<Frame>) {
         frames.clear();
         frames.push(Frame::IDENTITY);
@@ -145,8 +145,8 @@ impl Kinematics {
         }
     }
 
-    /// Computes the frames that some joints move, relative to the frame `seen_from`. The joints are listed parents
-    /// first. Other frames are left unchanged.
+    /// Computes the poses of the frames that some joints move, relative to the frame `seen_from`. Parents must come
+    /// before children. Other frames keep their poses.
     pub(crate) fn place_joints(
         &self,
         (seen_from, joints): (usize, &[usize]),
@@ -171,31 +171,31 @@ impl MovingJoint {
         axis: DVec3,
         is_prismatic: bool,
     ) -> Self {
-        let frame = DMat3::from_quat(origin.rotation());
-        let along = DMat3::from_cols(axis * axis.x, axis * axis.y, axis * axis.z);
-        let cross = DMat3::from_cols(
+        let rotation = DMat3::from_quat(origin.rotation());
+        let axis_projection = DMat3::from_cols(axis * axis.x, axis * axis.y, axis * axis.z);
+        let cross_matrix = DMat3::from_cols(
             axis.cross(DVec3::X),
             axis.cross(DVec3::Y),
             axis.cross(DVec3::Z),
         );
-        let (fixed, sine, cosine) = if is_prismatic {
-            (frame, DMat3::ZERO, DMat3::ZERO)
+        let (constant_term, sine_coefficient, cosine_coefficient) = if is_prismatic {
+            (rotation, DMat3::ZERO, DMat3::ZERO)
         } else {
             (
-                frame * along,
-                frame * cross,
-                frame * (DMat3::IDENTITY - along),
+                rotation * axis_projection,
+                rotation * cross_matrix,
+                rotation * (DMat3::IDENTITY - axis_projection),
             )
         };
         MovingJoint {
             parent,
             source,
             origin: origin.translation(),
-            axis: frame * axis,
+            axis: rotation * axis,
             is_prismatic,
-            constant_term: fixed,
-            sine_coefficient: sine,
-            cosine_coefficient: cosine,
+            constant_term,
+            sine_coefficient,
+            cosine_coefficient,
         }
     }
 
@@ -208,10 +208,10 @@ impl MovingJoint {
             };
         }
         let (sine, cosine) = position.sin_cos();
-        let turned =
+        let rotation =
             self.constant_term + self.sine_coefficient * sine + self.cosine_coefficient * cosine;
         Frame {
-            rotation: parent.rotation * turned,
+            rotation: parent.rotation * rotation,
             translation: parent.transform_point(self.origin),
         }
     }

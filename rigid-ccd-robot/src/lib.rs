@@ -36,7 +36,7 @@
 //! | find the first contact, and its time on a curve | [`CellSolver::first_contact`], [`JointCurve::time`] |
 //! | bound the least distance on a path | [`CellSolver::closest_approach`] |
 //! | bound the distance along a path, range by range | [`CellSolver::distance_curve`] |
-//! | find where clearances are kept or violated | [`CellSolver::clearance_ranges`] |
+//! | find where a path keeps or violates clearances | [`CellSolver::clearance_ranges`] |
 //! | check many paths on all cores | [`rigid_ccd::ParallelSolver`] with [`Cell::solver`] |
 //! | move one link in the frame of another in any other query | [`Robot::chain_between`] |
 //! | see what is checked, and probable mistakes | [`Cell::check_summary`], [`Cell::remarks`] |
@@ -44,16 +44,17 @@
 //!
 //! # Terms
 //! - A *cell* is a planning scene: a robot among static obstacles.
-//! - A *configuration* lists the positions of all joints with a position of their own. Two configurations are an
-//!   *edge*, between which all joints move at constant rates.
+//! - A joint is *independent* unless it is fixed or follows another joint. A *configuration* lists the positions of all
+//!   independent joints. An *edge* is a pair of configurations; between them all joints move at constant rates.
 //! - A *pair* is checked unless its links are adjacent, do not move relative to each other, or are allowed to touch:
 //!   [`LinkPairs`] is the allowed collision matrix.
-//! - A contact is a distance of at most margin + *tolerance*. The *margin* is a distance to keep, 0 by default.
+//! - A pair is in *contact* if its distance is at most margin + *tolerance*. The *margin* is a distance to keep, 0 by
+//!   default.
 //!
 //! # Guarantee
-//! On a free path all checked pairs stay farther apart than the margin, at all configurations in between, in floating
-//! point. Reaching a limit is an error or an outcome of its own, never a
-//! free path.
+//! On a free path all checked pairs stay farther apart than the margin at every configuration, not only at sampled
+//! ones. The proof includes all rounding errors. A search that reaches a limit returns an error or an unresolved
+//! outcome, never a free path.
 
 mod cell;
 mod check_summary;

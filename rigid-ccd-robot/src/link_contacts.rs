@@ -28,13 +28,13 @@ use std::time::Duration;
 pub enum LinkContactClass {
     /// The links never touch. This is proven for all configurations.
     Never,
-    /// The links touch in every configuration, to within two nanometres. The proof is one of these: no joint moves one
-    /// relative to the other; both contain the same point of the axis of the only joint between them; or the shapes of
-    /// two convex bodies overlap in every box of configurations. The proof is about the shapes inside the bodies, not
-    /// only about the bodies that [enclose](rigid_ccd::Body::excess) them.
+    /// The links touch in every configuration, to within two nanometres. There are three kinds of proof: no joint moves
+    /// one link relative to the other; both contain the same point of the axis of the only joint between them; or the
+    /// shapes of two convex bodies overlap in every box of configurations. The proof is about the shapes inside the
+    /// bodies, not only about the bodies that [enclose](rigid_ccd::Body::excess) them.
     Always,
-    /// The bodies touch in every configuration, but the shapes that they enclose are not proven to. An SRDF file does
-    /// not disable such a pair, unless the links are adjacent.
+    /// The bodies touch in every configuration, but it is not proven that the shapes inside them touch.
+    /// [`Robot::to_srdf`] does not disable such a pair, unless the links are adjacent.
     AlwaysAsEnclosed,
     /// The links touch in one configuration and are apart in another.
     Sometimes {
@@ -65,12 +65,13 @@ impl LinkContactClass {
     }
 }
 
-/// The limits of a classification of link pairs. Pairs without a proof by then are [`LinkContactClass::Undecided`].
+/// The limits of a classification of link pairs. A pair that is not decided when a limit is reached is
+/// [`LinkContactClass::Undecided`].
 #[derive(Clone, Debug)]
 pub struct LinkContactSettings {
-    /// The average number of boxes of configurations that are examined for each pair. What one pair does not need is
-    /// left for the others. Pairs that touch without overlapping in some configuration, such as sliding parts, get no
-    /// extra boxes, because no box around such a configuration can be decided.
+    /// The largest average number of boxes of configurations that are examined for each pair. Boxes that one pair does
+    /// not need are available to the others. A pair that touches without overlapping in some configuration, such as two
+    /// sliding parts, gets no extra boxes, because no box around that configuration can be decided.
     pub max_boxes: usize,
     /// The time limit for all pairs together; `None` for no limit. With a limit, answers depend on the machine.
     pub deadline: Option<Duration>,
@@ -96,19 +97,20 @@ impl Default for LinkContactSettings {
 impl Robot {
     /// Classifies each pair of links with bodies: they touch never, always or sometimes.
     ///
-    /// First, witness configurations are searched at random and by descent to lower distances. Then a branch and bound
-    /// search covers the positions of the joints between the links with boxes. For each box, the distance at its
-    /// center is compared with a bound of how far the links move within it. Undecided boxes are halved, the largest
-    /// first.
+    /// The search starts with random configurations and descends to lower distances, to find witnesses: a configuration
+    /// where the links touch, and one where they are apart. Branch and bound then covers the positions of the joints
+    /// between the links with boxes. For each box, it compares the distance at the center with a bound of how far the
+    /// links move within the box. It halves undecided boxes, the largest first.
     ///
-    /// The search runs in rounds, with more boxes for each pair from round to round. Pairs with the smallest undecided
-    /// volume come first. All cores share the pairs. A revolute joint without limits is searched over one turn.
-    /// `progress` is called from any thread with the number of decided pairs and of all pairs.
+    /// The search runs in rounds, with more boxes for each pair from round to round. In each round, pairs with the
+    /// smallest undecided volume come first. The pairs are distributed over all cores. A revolute joint without limits
+    /// is searched over one turn. `progress` is called from any thread with the number of decided pairs and the number
+    /// of all pairs.
     ///
     /// # Guarantee
-    /// [`LinkContactClass::Never`] and [`LinkContactClass::Always`] are proven in floating point. Witness
-    /// configurations are exact up to the rounding of positions; they are about the bodies, not about the shapes that
-    /// these [enclose](rigid_ccd::Body::excess). Without a deadline and a stop flag, the same call gives the same
+    /// The proofs of [`LinkContactClass::Never`] and [`LinkContactClass::Always`] include all rounding errors. Witness
+    /// configurations are exact up to the rounding of positions. They are about the bodies, not about the shapes that
+    /// the bodies [enclose](rigid_ccd::Body::excess). Without a deadline and a stop flag, the same call gives the same
     /// answers on any number of threads.
     ///
     /// # Errors
@@ -124,43 +126,43 @@ impl Robot {
         let cell = Cell::new(self.clone(), link_pairs);
         let end = SearchEnd::starting_now(settings);
         let mut searches = ParallelSolver::new(|| LinkPairSearch::new(&cell, end.clone()));
-        let (all, decided) = (records.len(), AtomicUsize::new(0));
-        let mut left = settings.max_boxes.saturating_mul(all);
-        let mut boxes = lesser(FIRST_ROUND_BOXES, settings.max_boxes);
-        while left > 0 && !end.is_reached() {
+        let (pair_count, decided_count) = (records.len(), AtomicUsize::new(0));
+        let mut boxes_left = settings.max_boxes.saturating_mul(pair_count);
+        let mut boxes_per_pair = lesser(FIRST_ROUND_BOXES, settings.max_boxes);
+        while boxes_left > 0 && !end.is_reached() {
             // The sort below is stable.
-            let quota_of = |pair: usize| records[pair].quota(boxes, settings.max_boxes);
-            let mut open: Vec<usize> = (0..all)
+            let quota_of = |pair: usize| records[pair].quota(boxes_per_pair, settings.max_boxes);
+            let mut undecided_pairs: Vec<usize> = (0..pair_count)
                 .filter(|&pair| !records[pair].is_decided() && !records[pair].is_exhausted)
                 // A search starts again from the box of all positions, so only a larger quota helps.
                 .filter(|&pair| quota_of(pair) > records[pair].boxes)
                 .collect();
-            open.sort_by(|&a, &b| {
+            undecided_pairs.sort_by(|&a, &b| {
                 records[a]
                     .undecided_fraction
                     .total_cmp(&records[b].undecided_fraction)
             });
-            let quotas = open.iter().map_while(|&pair| {
-                let quota = lesser(quota_of(pair), left);
-                left -= quota;
+            let quotas = undecided_pairs.iter().map_while(|&pair| {
+                let quota = lesser(quota_of(pair), boxes_left);
+                boxes_left -= quota;
                 (quota > records[pair].boxes).then_some((pair, quota))
             });
             let quotas: Vec<(usize, usize)> = quotas.collect();
             if quotas.is_empty() {
                 break;
             }
-            let found = searches.map(&quotas, |search, &(pair, quota)| {
+            let new_records = searches.map(&quotas, |search, &(pair, quota)| {
                 let mut record = records[pair].clone();
                 search.search(&mut record, quota)?;
-                decided.fetch_add(usize::from(record.is_decided()), Ordering::Relaxed);
-                progress(decided.load(Ordering::Relaxed), all);
+                decided_count.fetch_add(usize::from(record.is_decided()), Ordering::Relaxed);
+                progress(decided_count.load(Ordering::Relaxed), pair_count);
                 Ok::<_, Error>(record)
             });
-            for ((pair, quota), record) in quotas.into_iter().zip(found) {
+            for ((pair, quota), record) in quotas.into_iter().zip(new_records) {
                 records[pair] = record?;
-                left += quota - lesser(quota, records[pair].boxes);
+                boxes_left += quota - lesser(quota, records[pair].boxes);
             }
-            boxes = boxes.saturating_mul(ROUND_FACTOR);
+            boxes_per_pair = boxes_per_pair.saturating_mul(ROUND_FACTOR);
         }
         let classes = records
             .into_iter()

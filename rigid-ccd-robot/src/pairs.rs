@@ -58,13 +58,13 @@ impl LinkPairs {
     /// Excludes a pair, for a reason. If the pair is already excluded, its old reason stays.
     pub fn skip(&mut self, one: usize, other: usize, reason: SkipReason) {
         self.skip_reasons
-            .entry(ordered_pair(one, other))
+            .entry(ordered_pair([one, other]))
             .or_insert(reason);
     }
 
     /// Includes a pair that was excluded.
     pub fn include(&mut self, one: usize, other: usize) {
-        self.skip_reasons.remove(&ordered_pair(one, other));
+        self.skip_reasons.remove(&ordered_pair([one, other]));
     }
 
     /// Returns whether a pair of different links is checked.
@@ -84,7 +84,7 @@ impl LinkPairs {
 
     /// Returns the reason why a pair is not checked; `None` if it is checked.
     pub fn skip_reason(&self, one: usize, other: usize) -> Option<&SkipReason> {
-        self.skip_reasons.get(&ordered_pair(one, other))
+        self.skip_reasons.get(&ordered_pair([one, other]))
     }
 
     /// Iterates over the pairs of links with bodies that are not checked, each with its reason.
@@ -109,26 +109,30 @@ impl LinkPairs {
         groups
     }
 
-    /// Copies the skipped pairs of one robot into those of a combined robot, in which its links have the indices
-    /// `links`. Returns whether the pairs fit: whether the same links have bodies.
+    /// Replaces the skipped pairs within one robot of a combined robot by `pairs_of_robot`. The links of the robot have
+    /// the indices `links` in the combined robot. Returns whether the pairs fit the robot: whether they have the same
+    /// links with bodies. Otherwise changes nothing.
     #[must_use]
-    pub(crate) fn replace_within(&mut self, links: Range<usize>, own: &LinkPairs) -> bool {
-        let with_bodies = self
-            .links_with_bodies
-            .iter()
-            .filter(|link| links.contains(link));
-        let own_with_bodies = own.links_with_bodies.iter().map(|link| links.start + link);
-        let numbers = own.skip_reasons.keys().flatten();
-        let fit = numbers.into_iter().all(|&link| link < links.len());
-        if !fit || !with_bodies.copied().eq(own_with_bodies) {
+    pub(crate) fn replace_within(
+        &mut self,
+        links: Range<usize>,
+        pairs_of_robot: &LinkPairs,
+    ) -> bool {
+        let combined_index = |link: &usize| links.start + link;
+        let with_bodies = self.links_with_bodies.iter().copied();
+        let with_bodies = with_bodies.filter(|link| links.contains(link));
+        let expected = pairs_of_robot.links_with_bodies.iter().map(combined_index);
+        let mut skipped_links = pairs_of_robot.skip_reasons.keys().flatten();
+        let has_links = skipped_links.all(|&link| link < links.len());
+        if !has_links || !with_bodies.eq(expected) {
             return false;
         }
-        let is_within = |pair: &[usize; 2]| pair.iter().all(|link| links.contains(link));
-        self.skip_reasons.retain(|pair, _| !is_within(pair));
-        let own = own.skip_reasons.iter();
-        let renumbered =
-            own.map(|(pair, reason)| (pair.map(|link| links.start + link), reason.clone()));
-        self.skip_reasons.extend(renumbered);
+        let is_within_robot = |pair: &[usize; 2]| pair.iter().all(|link| links.contains(link));
+        self.skip_reasons.retain(|pair, _| !is_within_robot(pair));
+        let skipped = pairs_of_robot.skip_reasons.iter();
+        let reindexed =
+            skipped.map(|(pair, reason)| (pair.map(|link| links.start + link), reason.clone()));
+        self.skip_reasons.extend(reindexed);
         true
     }
 
@@ -143,7 +147,9 @@ impl LinkPairs {
     }
 }
 
-fn ordered_pair(one: usize, other: usize) -> [usize; 2] {
+/// Returns two indices in ascending order.
+#[inline]
+pub(crate) fn ordered_pair([one, other]: [usize; 2]) -> [usize; 2] {
     if one <= other {
         [one, other]
     } else {

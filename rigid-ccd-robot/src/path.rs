@@ -12,12 +12,12 @@ use joint_path::JointPath;
 /// A path of a robot: a slice, array or vector of configurations, or a [`JointCurve`]. Between two configurations all
 /// joints move at constant rates.
 ///
-/// One configuration is a robot at rest, two are an edge.
+/// A path of one configuration is a robot at rest. A path of two configurations is an edge.
 pub trait Path: PathSource {
     /// Returns the number of segments.
     fn segment_count(&self) -> usize;
 
-    /// Returns the time of a point. Without a curve, each segment takes one unit of time.
+    /// Returns the time of a point. On a path of configurations, each segment takes one unit of time.
     fn time(&self, point: PathPoint) -> f64 {
         point.time()
     }
@@ -40,10 +40,10 @@ impl<Q: AsRef<[f64]>> PathSource for [Q] {
         if self.is_empty() {
             return Err(PathError::EmptyPath);
         }
-        for (number, configuration) in self.iter().enumerate() {
-            let checked = cell.robot().check_configuration(configuration.as_ref());
-            checked.map_err(|error| PathError::InvalidConfiguration {
-                configuration_index: number,
+        for (configuration_index, configuration) in self.iter().enumerate() {
+            let result = cell.robot().check_configuration(configuration.as_ref());
+            result.map_err(|error| PathError::InvalidConfiguration {
+                configuration_index,
                 error,
             })?;
         }

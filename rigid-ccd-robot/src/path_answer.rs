@@ -1,4 +1,4 @@
-//! The answer to a question about a path, of one type for all questions.
+//! The answer to a question about a path. All questions have the same type of answer.
 
 use crate::cell::Item;
 use crate::error::PathError;
@@ -7,21 +7,22 @@ use rigid_ccd::Error;
 use rigid_ccd::answer::{ClearanceVerdict, Feature, Limit, Unresolved};
 use rigid_ccd::glam::DVec3;
 
-/// The outcome of a question about a path, and its accuracy.
+/// The answer to a question about a path: its outcome and its accuracy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathAnswer<'c> {
     /// The result: free, a contact, a least distance, or a limit that was reached.
     pub outcome: PathOutcome<'c>,
     /// The point before which nothing touches: the end of a free path, the point of a first contact, or the point up
-    /// to which the search proved it before a limit. For any other contact and for a distance, it is the start of the
-    /// path.
+    /// to which the search proved the path free before it reached a limit. The start of the path for any other contact
+    /// and for a distance.
     pub free_until: PathPoint,
     /// The tolerance that the answer meets. It is the tolerance of the settings, unless rounding of positions makes it
     /// larger, far from the base or after thousands of turns.
     ///
-    /// A contact is at most this distance beyond the margin. The bounds of a least distance differ by at most this
+    /// The distance of a contact is at most margin + tolerance. The bounds of a least distance differ by at most the
     /// tolerance plus the [excess](rigid_ccd::Body::excess) of both nearest bodies, unless a limit is reached. Both
-    /// hold to within a thousandth of the tolerance. That nothing touches is exact.
+    /// statements hold to within a thousandth of the tolerance. The tolerance does not affect proofs that a path is
+    /// free.
     pub tolerance: f64,
 }
 
@@ -59,9 +60,9 @@ pub struct UnresolvedPath<'c> {
     pub limit: Limit,
     /// A lower bound of the least distance; 0 for a question about contacts.
     pub lower: f64,
-    /// An upper bound of the least distance; infinite if it was not asked for or not measured.
+    /// An upper bound of the least distance; infinite for a question about contacts or if no distance was measured.
     pub upper: f64,
-    /// The nearest pair so far; `None` if no distance was asked for or measured.
+    /// The nearest measured pair; `None` for a question about contacts or if no distance was measured.
     pub nearest: Option<PathContact<'c>>,
 }
 
@@ -160,7 +161,7 @@ impl<'c> PathOutcome<'c> {
 
     /// Compares the bounds of the least distance with a required clearance.
     ///
-    /// Bodies that may touch keep no clearance, not even 0.
+    /// If the lower bound is 0, the bodies may touch: then no clearance is kept, not even 0.
     pub fn clearance_verdict(&self, required: f64) -> ClearanceVerdict {
         ClearanceVerdict::from_bounds([self.lower(), self.upper()], required)
     }

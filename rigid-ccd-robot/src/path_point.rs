@@ -16,7 +16,7 @@ impl PathPoint {
         fraction: 0.0,
     };
 
-    /// Returns the time of this point if each segment takes one unit of time: index plus fraction.
+    /// Returns the time of this point if each segment takes one unit of time: the index plus the fraction.
     pub fn time(self) -> f64 {
         // This is exact, because the fraction was computed from this sum.
         self.segment as f64 + self.fraction

@@ -41,8 +41,8 @@ pub(crate) struct Polynomial {
 impl Polynomial {
     pub(crate) fn new(degree: usize, coefficient: impl Fn(usize) -> DoubleDouble) -> Self {
         let mut coefficients = [DoubleDouble::default(); MAX_DEGREE + 1];
-        for (power, own) in coefficients[..=degree].iter_mut().enumerate() {
-            *own = coefficient(power);
+        for (power, stored) in coefficients[..=degree].iter_mut().enumerate() {
+            *stored = coefficient(power);
         }
         Polynomial {
             degree,
@@ -63,11 +63,12 @@ impl Polynomial {
     }
 
     /// Returns the value at an offset from the expansion point, by Horner's scheme, rounded to f64.
-    pub(crate) fn value(&self, fraction: f64) -> f64 {
-        let fraction = DoubleDouble::from(fraction);
-        let all = self.coefficients[..=self.degree].iter().rev();
+    pub(crate) fn value(&self, offset: f64) -> f64 {
+        let offset = DoubleDouble::from(offset);
+        let highest_first = self.coefficients[..=self.degree].iter().rev();
         let zero = DoubleDouble::default();
-        all.fold(zero, |value, &own| own + fraction * value).value()
+        let sum = highest_first.fold(zero, |sum, &coefficient| coefficient + offset * sum);
+        sum.value()
     }
 
     #[cfg(test)]
@@ -83,7 +84,7 @@ impl Polynomial {
     /// Returns the sum of the absolute values of all coefficients.
     pub(crate) fn coefficient_magnitude_sum(&self) -> f64 {
         let all = self.coefficients.iter();
-        all.map(|own| own.value().abs()).sum()
+        all.map(|coefficient| coefficient.value().abs()).sum()
     }
 
     /// Bounds the values on the segment. The polynomial must be expanded about the segment's start.
@@ -91,19 +92,19 @@ impl Polynomial {
         self.range_within(0.5, 0.5, MAX_RANGE_HALVINGS)
     }
 
-    /// Bounds the values within `half` of `middle`. Halves the range while the bound is much wider than the sampled
+    /// Bounds the values within `half` of `center`. Halves the range while the bound is much wider than the sampled
     /// values.
-    fn range_within(&self, middle: f64, half: f64, halvings: u32) -> [f64; 2] {
-        let expanded = self.expanded_about(middle);
+    fn range_within(&self, center: f64, half: f64, halvings: u32) -> [f64; 2] {
+        let expanded = self.expanded_about(center);
         let (value, deviation) = (expanded.constant(), expanded.deviation_bound(half));
         let ends = [-half, half].map(|offset| expanded.value(offset));
-        let seen = greater((ends[0] - value).abs(), (ends[1] - value).abs());
-        if halvings == 0 || deviation <= MAX_RANGE_WIDTH_RATIO * seen {
+        let sampled = greater((ends[0] - value).abs(), (ends[1] - value).abs());
+        if halvings == 0 || deviation <= MAX_RANGE_WIDTH_RATIO * sampled {
             return [value - deviation, value + deviation];
         }
         let quarter = 0.5 * half;
-        let [first, last] = [middle - quarter, middle + quarter]
-            .map(|middle| self.range_within(middle, quarter, halvings - 1));
+        let [first, last] = [center - quarter, center + quarter]
+            .map(|center| self.range_within(center, quarter, halvings - 1));
         [lesser(first[0], last[0]), greater(first[1], last[1])]
     }
 
@@ -115,15 +116,17 @@ impl Polynomial {
     /// Bounds the deviation from the value at the expansion point, within `half` of it: `Σ |cᵢ| hⁱ`.
     pub(crate) fn deviation_bound(&self, half: f64) -> f64 {
         let rest = self.coefficients[1..=self.degree].iter().rev();
-        let sum = rest.fold(0.0, |sum, own| own.value().abs() + half * sum);
+        let sum = rest.fold(0.0, |sum, coefficient| {
+            coefficient.value().abs() + half * sum
+        });
         half * sum * ROUNDING_FACTOR
     }
 
     /// Bounds the absolute value of the derivative within `half` of the expansion point: `Σ i |cᵢ| hⁱ⁻¹`.
     pub(crate) fn rate_bound(&self, half: f64) -> f64 {
         let rest = self.coefficients[..=self.degree].iter().enumerate().skip(1);
-        let sum = rest.rev().fold(0.0, |sum, (power, own)| {
-            power as f64 * own.value().abs() + half * sum
+        let sum = rest.rev().fold(0.0, |sum, (power, coefficient)| {
+            power as f64 * coefficient.value().abs() + half * sum
         });
         sum * ROUNDING_FACTOR
     }
@@ -133,8 +136,8 @@ impl Polynomial {
     /// A function deviates from its chord by at most `(2h)²/8` times its largest second derivative: `Σ i (i−1)/2 |cᵢ|
     /// hⁱ`.
     pub(crate) fn chord_deviation_bound(&self, half: f64) -> f64 {
-        let curved = self.coefficients[..=self.degree].iter().enumerate().skip(2);
-        let sum = curved.rev().fold(0.0, |sum, (power, coefficient)| {
+        let higher_terms = self.coefficients[..=self.degree].iter().enumerate().skip(2);
+        let sum = higher_terms.rev().fold(0.0, |sum, (power, coefficient)| {
             let pairs = (power * (power - 1) / 2) as f64;
             pairs * coefficient.value().abs() + half * sum
         });

@@ -6,7 +6,7 @@ use rigid_ccd::Remark;
 use rigid_ccd::text::RoundedToFourDigits;
 use std::fmt;
 
-/// A remark on a robot or a cell. It changes no answer.
+/// A remark on a robot or a cell. Remarks do not affect answers.
 ///
 /// A [warning](CellRemark::is_warning) reports a probable mistake, or that most of a robot is not checked. A note
 /// reports what is not checked. [`LinkPairs::remarks`](crate::LinkPairs::remarks) lists the remarks on a robot,
@@ -81,7 +81,7 @@ pub enum CellRemark {
         /// The names of the links and the attached bodies.
         items: Vec<String>,
     },
-    /// Pairs other than two links are allowed to touch. This is a note.
+    /// Pairs with an obstacle or an attached body are allowed to touch. This is a note.
     ContactsAllowed {
         /// The pairs.
         pairs: Vec<[String; 2]>,
@@ -144,7 +144,7 @@ impl CellRemark {
         remarks
     }
 
-    /// Returns the remark with the names in it prefixed by a robot's name.
+    /// Returns the remark with `prefixed` applied to all names of links, joints and items.
     pub(crate) fn with_robot_name(&self, prefixed: impl Fn(&str) -> String) -> Self {
         let mut remark = self.clone();
         let names: Vec<&mut String> = match &mut remark {
@@ -195,11 +195,12 @@ impl fmt::Display for CellRemark {
             ),
             CellRemark::EmptyRobot { link } => write!(
                 f,
-                "the robot's file has one link without shapes, {link}, and no joints: has it macros only, or shapes for drawing only?"
+                "the robot's file has one link without shapes, {link}, and no joints; does it contain only macros, or only shapes for \
+                 drawing?"
             ),
             CellRemark::LeftOut { elements } => write!(
                 f,
-                "something in the robot's file is left out, which other programs may take into account: {}",
+                "elements of the robot's file are ignored, although other programs may use them: {}",
                 elements.join(", ")
             ),
             CellRemark::UnknownLinks { links } => write!(
@@ -209,8 +210,7 @@ impl fmt::Display for CellRemark {
             ),
             CellRemark::OtherRobotName { robot, of_srdf } => write!(
                 f,
-                "the SRDF is of a robot with another name; are its pairs those of this one? It is of `{of_srdf}`, and the robot is \
-                 `{robot}`"
+                "the SRDF names another robot; does it belong to this one? It is of `{of_srdf}`, and the robot is `{robot}`"
             ),
             CellRemark::UnlikelySize {
                 item,
@@ -220,8 +220,8 @@ impl fmt::Display for CellRemark {
                 let [size, robot_size] = [size, robot_size].map(|&size| RoundedToFourDigits(size));
                 write!(
                     f,
-                    "something has a size that is unlikely beside the robot; is it in the robot's unit of length? {item} is {size} \
-                     long, and the robot {robot_size}"
+                    "the size of {item} is unlikely next to the robot's; is it in the robot's unit of length? {item} is {size} long, \
+                     and the robot {robot_size}"
                 )
             }
             CellRemark::Input { item, remark } => write!(f, "{item}: {remark}"),
@@ -250,7 +250,7 @@ impl fmt::Display for CellRemark {
             ),
             CellRemark::ExactMeshes { meshes } => write!(
                 f,
-                "hollows of meshes are free, where MuJoCo finds contacts with the convex hull: {}",
+                "bodies may enter hollows of these meshes, but MuJoCo uses their convex hulls: {}",
                 meshes.join(", ")
             ),
             CellRemark::MeshContent { mesh, content } => write!(f, "mesh {mesh}: {content}"),

@@ -18,20 +18,20 @@ use tree::Tree;
 
 /// A robot: a tree of links, connected by joints.
 ///
-/// A *configuration* has one position for each joint with a position of its own: radians for revolute joints, a length
-/// for prismatic ones. Fixed joints and joints that follow another one have no position of their own. The order is
-/// that of [`Robot::independent_joint_names`], which is the order in which the joints were given.
+/// A *configuration* has one position for each independent joint: an angle in radians for a revolute joint, a length for
+/// a prismatic joint. Fixed joints and joints that follow another joint are not independent. The positions have the
+/// order of [`Robot::independent_joint_names`], which is the order of the joints in [`Robot::new`].
 #[derive(Clone, Debug)]
 pub struct Robot {
     name: String,
     links: Vec<Link>,
     joints: Vec<Joint>,
     tree: Tree,
-    /// For each joint, how its position is computed from a configuration; `None` for a fixed joint.
+    /// For each joint, the rule that computes its position from a configuration; `None` for a fixed joint.
     position_sources: Vec<Option<PositionSource>>,
-    /// The indices of the joints with a position of their own, in the order of a configuration.
+    /// The indices of the independent joints, in the order of a configuration.
     independent_joints: Vec<usize>,
-    /// For each link, the link nearest to the base to which only fixed joints connect it.
+    /// For each link, the link nearest to the base among the links that are connected to it by fixed joints only.
     rigid_roots: Vec<usize>,
     /// Remarks on the file from which the robot was read.
     file_remarks: Vec<CellRemark>,
@@ -44,8 +44,8 @@ pub struct Link {
     pub name: String,
     /// The bodies that are fixed to the link.
     pub bodies: Vec<LinkBody>,
-    /// Half-spaces of a static link. Each pose places a frame in the link's frame; the half-space is below its plane
-    /// `z = 0`.
+    /// Half-spaces of a static link. Each is the half-space below the plane `z = 0` of a frame, which has this pose in
+    /// the link's frame.
     pub planes: Vec<Pose>,
 }
 
@@ -78,8 +78,8 @@ pub struct Joint {
 pub enum PositionRule {
     /// The configuration has a position for the joint. A fixed joint has none.
     Independent,
-    /// The joint follows another joint, like `mimic` in URDF. Its position is `multiplier · position + offset`; its
-    /// own limits are ignored.
+    /// The joint follows another joint, like `mimic` in URDF. Its position is `multiplier · position + offset`, where
+    /// `position` is the position of the followed joint. Its limits are ignored.
     Follows {
         /// The name of the followed joint.
         joint: String,
@@ -90,37 +90,24 @@ pub enum PositionRule {
     },
 }
 
-/// Computes the position of a joint from a configuration.
+/// The rule that computes the position of a joint from a configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PositionSource {
     /// The index in the configuration of the position that the joint depends on.
-    position_index: usize,
-    multiplier: f64,
-    offset: f64,
+    pub(crate) position_index: usize,
+    /// The factor from that position to the joint's position.
+    pub(crate) multiplier: f64,
+    /// The joint's position when that position is 0.
+    pub(crate) offset: f64,
     /// The sum of the absolute values of the terms of `offset`.
     offset_magnitude: f64,
-    /// The number of joints that are followed, one after the other, up to a joint with a position of its own.
+    /// The number of joints that are followed, one after the other, up to an independent joint.
     mimic_chain_length: u32,
 }
 
 impl PositionSource {
-    /// Returns the index in the configuration of the position that the joint depends on.
-    pub(crate) fn position_index(&self) -> usize {
-        self.position_index
-    }
-
-    /// Returns the multiplier from that position to the joint's position.
-    pub(crate) fn factor(&self) -> f64 {
-        self.multiplier
-    }
-
-    /// Returns the joint's position when that position is 0.
-    pub(crate) fn offset(&self) -> f64 {
-        self.offset
-    }
-
-    /// Returns whether the multiplier is an integer. Then one turn of the followed joint is a whole number of turns of
-    /// this one.
+    /// Returns whether the multiplier is an integer. If it is, this joint makes a whole number of turns in one turn of
+    /// the followed joint.
     pub(crate) fn has_integer_multiplier(&self) -> bool {
         self.multiplier.fract() == 0.0
     }
@@ -131,24 +118,24 @@ impl PositionSource {
         if self.offset == 0.0 {
             self.multiplier * followed
         } else {
-            // Rounds once, also when product and offset cancel.
+            // Rounds once, even if product and offset almost cancel.
             self.multiplier.mul_add(followed, self.offset)
         }
     }
 
-    /// Returns a number to which the rounding error of the joint's position is proportional. It grows with the number
-    /// of roundings.
+    /// Returns a number to which the rounding error of the joint's position is proportional. It increases with the
+    /// number of roundings.
     pub(crate) fn magnitude(&self, configuration: &[f64]) -> f64 {
-        let moved = (self.multiplier * configuration[self.position_index]).abs();
-        self.magnitude_of_product(moved)
+        let product = (self.multiplier * configuration[self.position_index]).abs();
+        self.magnitude_of_product(product)
     }
 
-    /// Returns the same from an upper bound of `|multiplier · position|`.
-    pub(crate) fn magnitude_of_product(&self, moved: f64) -> f64 {
-        (moved + self.offset_magnitude) * f64::from(1 + self.mimic_chain_length)
+    /// Returns the number of [`PositionSource::magnitude`], from an upper bound of `|multiplier · position|`.
+    pub(crate) fn magnitude_of_product(&self, product: f64) -> f64 {
+        (product + self.offset_magnitude) * f64::from(1 + self.mimic_chain_length)
     }
 
-    /// Converts a coefficient of the followed position, as a polynomial, to one of the joint's position.
+    /// Converts a coefficient of the followed joint's polynomial to the coefficient of this joint's polynomial.
     pub(crate) fn polynomial_coefficient(
         &self,
         power: usize,
@@ -237,9 +224,9 @@ impl Robot {
                 rigid_roots[link] = rigid_roots[parent];
             }
         }
-        let moves = |link: &usize| rigid_roots[*link] != tree.base();
+        let is_moving = |link: &usize| rigid_roots[*link] != tree.base;
         let mut with_planes = (0..links.len()).filter(|&link| !links[link].planes.is_empty());
-        if let Some(moving) = with_planes.find(moves) {
+        if let Some(moving) = with_planes.find(is_moving) {
             let link = links[moving].name.clone();
             return Err(RobotError::MovingPlane { link });
         }
@@ -293,10 +280,10 @@ impl Robot {
         &self.joints
     }
 
-    /// Returns the names of the joints with a position of their own, in the order of a configuration.
+    /// Returns the names of the independent joints, in the order of a configuration.
     pub fn independent_joint_names(&self) -> impl ExactSizeIterator<Item = &str> {
-        let free = self.independent_joints.iter();
-        free.map(|&joint| self.joints[joint].name.as_str())
+        let joints = self.independent_joints.iter();
+        joints.map(|&joint| self.joints[joint].name.as_str())
     }
 
     /// Returns the limits of the positions, in the order of a configuration.
@@ -314,9 +301,9 @@ impl Robot {
         limits.map(|[low, high]| 0f64.clamp(low, high)).collect()
     }
 
-    /// Returns the index of the base, the only link that is no joint's child.
+    /// Returns the index of the base, which is the only link that is not the child of a joint.
     pub fn base(&self) -> usize {
-        self.tree.base()
+        self.tree.base
     }
 
     /// Returns the index in [`Robot::links`] of the link with this name.
@@ -324,8 +311,8 @@ impl Robot {
     /// # Errors
     /// [`RobotError::NoSuchLink`].
     pub fn link_number(&self, name: &str) -> Result<usize, RobotError> {
-        let number = self.links.iter().position(|link| link.name == name);
-        number.ok_or_else(|| RobotError::NoSuchLink { link: name.into() })
+        let index = self.links.iter().position(|link| link.name == name);
+        index.ok_or_else(|| RobotError::NoSuchLink { link: name.into() })
     }
 
     /// Returns the pose of a link in the frame of the base.
@@ -340,8 +327,8 @@ impl Robot {
             .pose(chain.chain().joints().len(), &positions)?)
     }
 
-    /// Returns the chain of joints that moves link `to` in the frame of link `from`. The chain goes up to their
-    /// nearest common ancestor, through reversed joints, and down again.
+    /// Returns the chain of joints that moves link `to` in the frame of link `from`. From `from` it leads to the nearest
+    /// common ancestor through reversed joints, and from there to `to`.
     pub fn chain_between(&self, from: usize, to: usize) -> ChainBetween {
         let steps = self.tree.path_between(from, to);
         let joints = steps.iter().map(|step| {
@@ -376,7 +363,7 @@ impl Robot {
         self.tree.links_parents_first()
     }
 
-    /// Returns how a joint's position is computed from a configuration; `None` for a fixed joint.
+    /// Returns the rule that computes a joint's position from a configuration; `None` for a fixed joint.
     pub(crate) fn source(&self, joint: usize) -> Option<PositionSource> {
         self.position_sources[joint]
     }
@@ -407,7 +394,7 @@ impl Robot {
         Ok(())
     }
 
-    /// Iterates over how the positions of all moving joints are computed.
+    /// Iterates over the rules that compute the positions of the moving joints.
     pub(crate) fn position_sources(&self) -> impl Iterator<Item = PositionSource> {
         self.position_sources.iter().copied().flatten()
     }
@@ -446,63 +433,64 @@ impl Robot {
     }
 }
 
-/// Computes how each joint's position depends on a configuration, and lists the joints with a position of their own.
+/// Returns the rule that computes each joint's position from a configuration, and the indices of the independent joints.
 fn position_sources_and_independent_joints(
     joints: &[Joint],
 ) -> Result<(Vec<Option<PositionSource>>, Vec<usize>), RobotError> {
-    let is_free = |joint: &Joint| {
+    let is_independent = |joint: &Joint| {
         joint.position_rule == PositionRule::Independent && !joint.geometry.is_fixed()
     };
-    let independent_joints: Vec<usize> =
-        (0..joints.len()).filter(|&k| is_free(&joints[k])).collect();
+    let independent_joints: Vec<usize> = (0..joints.len())
+        .filter(|&k| is_independent(&joints[k]))
+        .collect();
     let sources = joints.iter().map(|joint| {
         if joint.geometry.is_fixed() {
             return Ok(None);
         }
-        let (mut multiplier, mut offset, mut at) = (1.0, 0.0, joint);
+        let (mut multiplier, mut offset, mut followed) = (1.0, 0.0, joint);
         let mut offset_magnitude = 0.0;
         // A chain of followed joints that is longer than the number of joints contains a loop.
         for follow_count in 0..=joints.len() as u32 {
-            match &at.position_rule {
+            match &followed.position_rule {
                 PositionRule::Independent => {
-                    let number = independent_joints
+                    let position_index = independent_joints
                         .iter()
-                        .position(|&k| joints[k].name == at.name);
-                    return number
-                        .map(|number| {
+                        .position(|&k| joints[k].name == followed.name);
+                    return position_index
+                        .map(|position_index| {
                             Some(PositionSource {
-                                position_index: number,
+                                position_index,
                                 multiplier,
                                 offset,
                                 offset_magnitude,
                                 mimic_chain_length: follow_count,
                             })
                         })
-                        .ok_or_else(|| unfollowable_joint_error(joint, &at.name));
+                        .ok_or_else(|| unfollowable_joint_error(joint, &followed.name));
                 }
                 PositionRule::Follows {
-                    joint: followed,
-                    multiplier: factor,
-                    offset: shift,
+                    joint: leader,
+                    multiplier: next_multiplier,
+                    offset: next_offset,
                 } => {
-                    if !(factor.is_finite() && shift.is_finite()) {
+                    if !(next_multiplier.is_finite() && next_offset.is_finite()) {
                         let quantity = "the multiplier or the offset";
                         let error = InputError::NotFinite { quantity };
-                        let joint = at.name.clone();
+                        let joint = followed.name.clone();
                         return Err(RobotError::InvalidPosition { joint, error });
                     }
-                    offset += multiplier * shift;
-                    offset_magnitude += f64::abs(multiplier * shift);
-                    multiplier *= factor;
-                    let found = joints.iter().find(|other| other.name == *followed);
-                    at = found.ok_or_else(|| RobotError::NoSuchMimicJoint {
-                        joint: at.name.clone(),
-                        followed_joint: followed.clone(),
+                    offset += multiplier * next_offset;
+                    offset_magnitude += f64::abs(multiplier * next_offset);
+                    multiplier *= next_multiplier;
+                    let found = joints.iter().find(|other| other.name == *leader);
+                    followed = found.ok_or_else(|| RobotError::NoSuchMimicJoint {
+                        joint: followed.name.clone(),
+                        followed_joint: leader.clone(),
                     })?;
                 }
             }
         }
-        Err(unfollowable_joint_error(joint, &at.name))
+        Err(unfollowable_joint_error(joint, &followed.name))
     });
     Ok((sources.collect::<Result<_, _>>()?, independent_joints))
 }

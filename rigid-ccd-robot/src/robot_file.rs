@@ -60,8 +60,8 @@ pub struct RobotFile {
 }
 
 impl RobotFile {
-    /// Names a file to read. By default its collision shapes become exact bodies. Packages are searched in the folders
-    /// of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, then in the folders above the file.
+    /// Creates the description of a file to read. By default its collision shapes become exact bodies. Packages are
+    /// searched in the folders of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, then in the folders above the file.
     pub fn from_path(path: impl Into<PathBuf>) -> Self {
         let path = path.into();
         RobotFile {
@@ -73,8 +73,8 @@ impl RobotFile {
         }
     }
 
-    /// Takes the text of a file instead of reading it. `path` is the assumed path of the file, for finding meshes and
-    /// in messages.
+    /// Creates the description of a file from its text. `path` is the assumed path of the file: it is used to find
+    /// meshes, and in messages.
     ///
     /// ```
     /// use rigid_ccd_robot::RobotFile;
@@ -121,13 +121,13 @@ impl RobotFile {
     ///
     /// For an MJCF:
     ///
-    /// - A joint follows another one if an `equality` makes its position a linear function of the other's. Other
-    ///   constraints, for example those that close loops, are ignored: paths have to satisfy them.
-    /// - The positions of a free joint or a `mocap` body are those of the body in the world.
+    /// - A joint follows another joint if an `equality` makes its position a linear function of the other position.
+    ///   Other constraints, for example constraints that close loops, are ignored: paths have to satisfy them.
+    /// - The positions of a free joint or a `mocap` body are relative to the world's origin.
     /// - Limits of ball joints and margins of geoms are ignored.
     /// - An ellipsoid becomes an enclosing polytope.
     /// - MuJoCo uses the convex hull of a mesh, and so does [`MeshConversion::OuterHull`]. The default uses the exact
-    ///   mesh, in whose hollows nothing touches.
+    ///   mesh, so a body in a hollow of the mesh touches nothing.
     /// - Shapes fitted to meshes, height fields from images, built-in meshes and planes on moving bodies are errors.
     ///
     /// Unknown elements and attributes are errors, unless they are known to be unrelated to shapes, joints and pairs.
@@ -137,7 +137,7 @@ impl RobotFile {
     /// [`RobotFileError`] with the name of the link, joint or mesh file.
     pub fn read(&self) -> Result<Robot, RobotFileError> {
         let text = self.text()?;
-        self.search_folders.check_given_folders()?;
+        self.search_folders.check_caller_folders()?;
         let model = self.mjcf(&text)?;
         let rules = match model {
             Some(_) => MeshRules::Mjcf,
@@ -168,11 +168,11 @@ impl RobotFile {
     /// Returns the pairs of links that are checked. Adjacent links, links that do not move relative to each other, and
     /// pairs that the SRDF disables are not checked. The SRDF can enable pairs again.
     ///
-    /// For an MJCF, the pairs are those of MuJoCo: `contype`, `conaffinity`, `exclude` and `pair` apply, and children
-    /// of the world are checked against it.
+    /// For an MJCF, MuJoCo's rules apply: `contype`, `conaffinity`, `exclude` and `pair` have an effect, and children of
+    /// the world are checked against it.
     ///
-    /// Links in the SRDF that the robot does not have give a remark. `disable_default_collisions` disables all pairs
-    /// of a link with other links, but none with obstacles.
+    /// Unknown links in the SRDF give a remark. `disable_default_collisions` disables all pairs of a link with other
+    /// links, but no pairs with obstacles.
     ///
     /// # Errors
     /// [`RobotFileError`] if a file cannot be read, or if the robot has none of the SRDF's links.
@@ -187,11 +187,8 @@ impl RobotFile {
             None => LinkPairs::from_robot(robot),
         };
         if let Some(file) = srdf {
-            let srdf = Srdf::from_text(&read(file)?).map_err(|error| RobotFileError::Srdf {
-                file: file.to_owned(),
-                error,
-            })?;
-            srdf.apply(robot, &mut pairs)
+            Srdf::from_text(&read(file)?)
+                .and_then(|srdf| srdf.apply(robot, &mut pairs))
                 .map_err(|error| RobotFileError::Srdf {
                     file: file.to_owned(),
                     error,
@@ -218,7 +215,6 @@ impl RobotFile {
         }
         let folder = self.path.parent().unwrap_or(Path::new(""));
         let model = MjcfModel::from_text(text, folder).map_err(|error| match error {
-            // Names the path, which the text itself does not know.
             RobotFileError::Mjcf(MjcfError::Syntax { error }) => self.syntax_error(error),
             other => other,
         })?;
@@ -249,6 +245,12 @@ fn robot_name(text: &str) -> String {
     name.unwrap_or_default()
 }
 
+/// Parses an XML text. A document type definition is an error.
+fn parse_xml(text: &str) -> Result<Document<'_>, String> {
+    Document::parse(text).map_err(|error| error.to_string())
+}
+
+/// Reads a text file.
 fn read(file: &Path) -> Result<String, RobotFileError> {
     ccd_file::read_to_string(file).map_err(|error| RobotFileError::Unreadable {
         file: file.to_owned(),

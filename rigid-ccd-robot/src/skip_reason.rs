@@ -10,7 +10,7 @@ pub enum SkipReason {
     Adjacent,
     /// No joint moves one link relative to the other.
     NoMotion,
-    /// The caller or a file, such as an SRDF, disables the pair. The text is the reason given.
+    /// The caller or a file, such as an SRDF, disables the pair. The text is the reason that it states.
     Disabled(String),
 }
 

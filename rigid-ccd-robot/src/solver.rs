@@ -43,9 +43,9 @@ use std::fmt;
 /// contact normals has no effect.
 ///
 /// A deadline applies to a whole question. A [budget](rigid_ccd::Settings::budget) applies to each query of two bodies
-/// that the solver hands to the engine. In total, a question may use 8 budgets for each segment of its path, and a
-/// closest approach up to 12. The total also counts the pairs that the solver measures itself; each takes less than a
-/// microsecond. Each range of a [distance curve](Self::distance_curve) counts as a question, and so does each interval
+/// that the solver leaves to the engine. In total, a question may use 8 budgets for each segment of its path, and a
+/// closest approach up to 12. The total includes the pairs that the solver measures itself. Each of these takes less
+/// than a microsecond. Each range of a [distance curve](Self::distance_curve) counts as a question, and so does each interval
 /// that [clearance ranges](Self::clearance_ranges) examine. A smaller budget may lead to a slightly later contact,
 /// still within the tolerance.
 ///
@@ -53,9 +53,9 @@ use std::fmt;
 /// Under the start policy [`Leave`](StartPolicy::Leave), questions about the first or any contact ignore contacts at
 /// the start as long as the bodies separate or slide, as in queries of two bodies:
 ///
-/// - A pair with a gap must keep half of the gap from then on.
+/// - A pair with a gap must keep half of its gap at the start.
 /// - A pair without a gap may come nearer by rounding errors and a millionth of the tolerance. If it separates and
-///   returns, that is a contact. If it slides along a curved path, it soon counts as a contact; use
+///   touches again, that is a contact. If it slides along a curved path, it soon counts as a contact; use
 ///   [`Cell::allow_contact`] for such a pair.
 /// - A pair within its margin must not come nearer than at the start.
 /// - A pair that overlaps is a contact.
@@ -100,8 +100,8 @@ impl<'c> CellSolver<'c> {
         self
     }
 
-    /// Allocates memory and builds joint chains that questions would otherwise create on first use. Answers do not
-    /// change. For predictable times, prepare a solver and let it answer a few questions first.
+    /// Allocates memory and builds joint chains that questions would otherwise create on first use. Answers stay the
+    /// same. For predictable times, call this function and then let the solver answer a few questions.
     pub fn prepare(&mut self) {
         self.search.prepare();
     }
@@ -111,8 +111,7 @@ impl<'c> CellSolver<'c> {
         self.search.set_settings(settings);
     }
 
-    /// Returns whether nothing touches on a path: neither the robot and an obstacle, nor two links. Measures no
-    /// contact.
+    /// Returns whether no checked pair touches on a path. Does not measure the contact.
     ///
     /// # Guarantee
     /// On a free path all checked pairs stay farther apart than the margin. On any other path some pair comes within

@@ -15,8 +15,8 @@ pub(crate) struct Srdf {
     robot_name: String,
     disabled: Vec<SrdfPair>,
     enabled: Vec<SrdfPair>,
-    /// The links of `disable_default_collisions`: all their pairs with other links are disabled, unless enabled
-    /// explicitly.
+    /// The links of `disable_default_collisions`. All their pairs with other links are disabled, unless
+    /// `enable_collisions` enables a pair.
     disabled_links: Vec<String>,
 }
 
@@ -24,7 +24,7 @@ pub(crate) struct Srdf {
 #[derive(Debug, PartialEq)]
 struct SrdfPair {
     links: [String; 2],
-    /// The reason that the file gives, such as MoveIt's `Never` or `Adjacent`; empty if it gives none.
+    /// The attribute `reason`, such as MoveIt's `Never` or `Adjacent`; empty if there is none.
     reason: String,
 }
 
@@ -63,7 +63,7 @@ pub enum SrdfError {
     /// The robot has none of the links that the file names.
     #[error("the file belongs to another robot: there is no link {}", links.join(", "))]
     OtherRobot {
-        /// The names of these links.
+        /// The names of the links in the file.
         links: Vec<String>,
     },
 }
@@ -113,23 +113,24 @@ impl Srdf {
         Ok(srdf)
     }
 
-    /// Applies the file to the pairs of a robot. Adds remarks on unknown links and on a robot name that differs.
+    /// Applies the file to the pairs of a robot. Adds a remark if the file names unknown links, and if its robot name
+    /// differs.
     pub(crate) fn apply(&self, robot: &Robot, pairs: &mut LinkPairs) -> Result<(), SrdfError> {
-        let number = |link: &String| robot.link_number(link).ok();
+        let link_index = |link: &String| robot.link_number(link).ok();
         let unknown = self.unknown_links(robot)?;
-        for link in self.disabled_links.iter().filter_map(number) {
+        for link in self.disabled_links.iter().filter_map(link_index) {
             for other in (0..robot.links().len()).filter(|&other| other != link) {
                 let reason = "disable_default_collisions".to_owned();
                 pairs.skip(link, other, SkipReason::Disabled(reason));
             }
         }
         for SrdfPair { links, reason } in &self.disabled {
-            if let [Some(one), Some(other)] = links.each_ref().map(number) {
+            if let [Some(one), Some(other)] = links.each_ref().map(link_index) {
                 pairs.skip(one, other, SkipReason::Disabled(reason.clone()));
             }
         }
         for SrdfPair { links, .. } in &self.enabled {
-            if let [Some(one), Some(other)] = links.each_ref().map(number) {
+            if let [Some(one), Some(other)] = links.each_ref().map(link_index) {
                 pairs.include(one, other);
             }
         }
@@ -160,7 +161,7 @@ impl Srdf {
         let unknown: Vec<String> = links
             .iter()
             .filter(is_unknown)
-            .map(|&own| own.clone())
+            .map(|&link| link.clone())
             .collect();
         if !links.is_empty() && unknown.len() == links.len() {
             return Err(SrdfError::OtherRobot { links: unknown });
@@ -188,7 +189,7 @@ fn attribute(element: Node<'_, '_>, name: &str) -> Result<String, SrdfError> {
 }
 
 fn check_attributes(element: Node<'_, '_>, known: &[&str]) -> Result<(), SrdfError> {
-    let is_unknown = |own: &roxmltree::Attribute<'_, '_>| !known.contains(&own.name());
+    let is_unknown = |attribute: &roxmltree::Attribute<'_, '_>| !known.contains(&attribute.name());
     match element.attributes().find(is_unknown) {
         None => Ok(()),
         Some(unknown) => Err(SrdfError::UnknownAttribute {
@@ -211,9 +212,9 @@ fn escape(text: &str) -> String {
 }
 
 impl Robot {
-    /// Writes an SRDF file that disables all pairs that need no check: adjacent links, unless `pairs` checks them, and
-    /// pairs that are proven to touch never or always. The `reason` attribute says which. A robot without a name is
-    /// called `robot`.
+    /// Returns the text of an SRDF file that disables all pairs that need no check: adjacent links, unless `pairs` checks
+    /// them, and pairs that are proven to touch never or always. The attribute `reason` is `Adjacent`, `Never (proven)`
+    /// or `Always (proven)`. A robot without a name is called `robot`.
     ///
     /// ```
     /// use rigid_ccd_robot::{Link, LinkContactSettings, LinkPairs, Robot};

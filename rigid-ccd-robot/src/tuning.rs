@@ -1,44 +1,47 @@
 //! Tuning constants. They affect only the running time of a search, not the correctness of its answer.
 
-/// The interval length, in segments, at which undecided candidates are left to the engine. Each halving costs the
-/// frames of all links and a distance query for each candidate. An engine query costs about ten distance queries.
+/// The length of an interval, in segments, at which the search leaves undecided candidates to the engine. Each halving
+/// computes the frames of all links, and takes one distance query for each candidate. An engine query takes as long as
+/// about ten distance queries.
 pub(crate) const MAX_ENGINE_INTERVAL_LENGTH: f64 = 1.0 / 32.0;
 
-/// The same for the closest approach, for which the engine has to measure distances instead of comparing them.
+/// The same length for the closest approach. The engine then has to measure distances, instead of only comparing them
+/// with a margin.
 pub(crate) const MAX_APPROACH_INTERVAL_LENGTH: f64 = 1.0 / 64.0;
 
-/// Below this displacement, in metres, a pair is left to the engine after only [`MIN_ENGINE_HALVINGS`] halvings.
+/// A pair whose displacement in an interval is smaller than this, in metres, is left to the engine after only
+/// [`MIN_ENGINE_HALVINGS`] halvings.
 pub(crate) const MAX_ENGINE_DISPLACEMENT: f64 = 0.01;
 pub(crate) const MIN_ENGINE_HALVINGS: u32 = 4;
 
-/// Above this displacement in half an interval, in metres, a distance at the midpoint rarely proves a pair free. The
-/// pair is then measured only if its bounding boxes intersect there.
+/// If the displacement of a pair in half an interval is larger than this, in metres, its distance at the midpoint
+/// rarely proves it free. The distance is then measured only if the bounding boxes intersect there.
 pub(crate) const MIN_BOX_TEST_DISPLACEMENT: f64 = 0.1;
 
-/// The squared distance, in square metres, below which a center counts as inside an obstacle's box. The offset between
-/// the two is then no initial direction.
+/// The squared distance, in square metres, below which a part's center counts as inside an obstacle's box. A distance
+/// query then starts along the line between both centers, not towards the box.
 pub(crate) const MIN_SQUARED_OFFSET: f64 = 1e-6;
 
-/// The largest number of convex hulls around each component of a non-convex obstacle, and around a link's body. A box
-/// test finds the hulls of obstacles, but all hulls of links are compared. More hulls fit better and leave less to the
-/// engine, but each costs distance queries.
+/// The largest number of convex hulls around each component of a non-convex obstacle, and around a link's body. More
+/// hulls fit better and leave less to the engine, but each hull takes distance queries. Links get fewer hulls, because
+/// box tests exclude only pairs with an obstacle.
 pub(crate) const MAX_OBSTACLE_PARTS: usize = 4;
 pub(crate) const MAX_LINK_PARTS: usize = 1;
 
-/// The largest number of components of an obstacle that get hulls of their own.
+/// The largest number of components of an obstacle for which each component has separate hulls.
 pub(crate) const MAX_COMPONENTS: usize = 256;
 
-/// The smallest number of pieces that are divided between two hulls.
+/// The smallest number of pieces for which a component gets more than one hull.
 pub(crate) const MIN_PIECES_FOR_TWO_HULLS: usize = 16;
 
 /// The number of intervals between the sampled points of a joint axis, in the search for a point that two links share.
 pub(crate) const JOINT_AXIS_INTERVALS: u32 = 128;
 
-/// The number of refinements after the sampling. Each drops a third of the interval.
+/// The number of refinements after the sampling. Each refinement drops a third of the interval.
 pub(crate) const JOINT_AXIS_REFINEMENTS: u32 = 48;
 
-/// The number of pairs between two readings of the clock, if there is a deadline. Measuring a pair takes about 150 ns,
-/// reading the clock 25 ns.
+/// The number of pairs that are measured between two readings of the clock. Measuring a pair takes about 150 ns,
+/// reading the clock about 25 ns.
 pub(crate) const PAIRS_BETWEEN_CLOCK_READS: usize = 8;
 
 /// The numbers of pairs and of nested halvings for which a prepared solver allocates memory. A pair takes 64 bytes, so
@@ -49,20 +52,20 @@ pub(crate) const PREPARED_HALVINGS: usize = 16;
 /// The largest number of budgets that a question about a path uses for each segment.
 pub(crate) const BUDGETS_PER_SEGMENT: u64 = 8;
 
-/// How often the interval of a candidate is halved after the budget of a query did not suffice.
+/// How many times the interval of a candidate is halved if the budget of a query does not suffice.
 pub(crate) const MAX_BUDGET_SPLITS: u32 = 3;
 
-/// The largest drift of a period, as a fraction of the tolerance. The rest of the tolerance is left to the search.
+/// The largest drift of a period, as a fraction of the tolerance. The search uses the rest of the tolerance.
 pub(crate) const MAX_DRIFT_SHARE: f64 = 0.25;
 
 /// The largest number of turns that the slowest joint makes in a period.
 pub(crate) const MAX_TURNS_IN_PERIOD: u32 = 128;
 
-/// The largest number of steps in a segment for following a pair in contact at the start until it has a gap.
+/// The largest number of steps in a segment in which a pair in contact at the start is followed until it has a gap.
 pub(crate) const MAX_START_STEPS: u32 = 256;
 
-/// The number of random samples in the search for witnesses, the number of the nearest samples from which it descends,
-/// and the largest number of checks in each descent.
+/// In the search for witnesses: the number of random samples, the number of descents, which start at the samples with
+/// the least distances, and the largest number of checks in each descent.
 pub(crate) const WITNESS_SAMPLES: usize = 256;
 pub(crate) const DESCENT_STARTS: usize = 6;
 pub(crate) const MAX_DESCENT_CHECKS: usize = 400;
@@ -71,10 +74,11 @@ pub(crate) const MAX_DESCENT_CHECKS: usize = 400;
 pub(crate) const FIRST_DESCENT_STEP: f64 = 0.125;
 pub(crate) const DESCENT_HALVINGS: i32 = 10;
 
-/// The number of boxes for each pair of links in the first round, and the factor from round to round.
+/// The largest number of boxes for each pair of links in the first round, and the factor by which it grows from round to
+/// round.
 pub(crate) const FIRST_ROUND_BOXES: usize = 1000;
 pub(crate) const ROUND_FACTOR: usize = 4;
 
-/// After this number of boxes, the search for a pair of links ends if they touched without overlapping at every
-/// center.
+/// The number of boxes after which the search for a pair of links ends, if the links touch without overlapping at the
+/// center of every box so far.
 pub(crate) const MAX_BOXES_WITHOUT_DEPTH: usize = 4000;

@@ -1,4 +1,4 @@
-//! Detects sizes and positions of robots that are probably in another unit.
+//! Remarks on sizes and positions that are probably in another unit.
 
 use crate::remark::CellRemark;
 use crate::robot::Robot;
@@ -7,14 +7,15 @@ use rigid_ccd::glam::DVec3;
 use rigid_ccd::trajectory::JointKind;
 use rigid_ccd::{Pose, Remark};
 
-/// Larger ratios of a body's size to the robot's size give a remark. Millimetres and metres differ by a factor of
-/// 1000.
+/// The largest usual ratio of a body's size to the robot's size. A larger ratio gives a remark. Millimetres and metres
+/// differ by a factor of 1000.
 const MAX_USUAL_SIZE_RATIO: f64 = 100.0;
 
-/// The same for a robot with unlimited prismatic joints, such as a drone in a building.
-const MAX_USUAL_SIZE_RATIO_OF_FREE: f64 = 1000.0;
+/// The largest usual ratio for a robot with unlimited prismatic joints, such as a drone in a building.
+const MAX_USUAL_SIZE_RATIO_IF_UNLIMITED: f64 = 1000.0;
 
-/// Smaller ratios give a remark. A screw is a few hundredths of a robot.
+/// The smallest usual ratio of a body's size to the robot's size. A smaller ratio gives a remark. A screw is a few
+/// hundredths of a robot.
 const MIN_USUAL_SIZE_RATIO: f64 = 0.001;
 
 /// The robot's dimensions, with which the sizes of bodies are compared.
@@ -49,10 +50,11 @@ impl Robot {
         }))
     }
 
-    /// Returns a remark if a revolute joint's position is many turns and a round number of degrees.
+    /// Returns a remark if the position of a revolute joint seems to be in degrees: many turns and a round number of
+    /// degrees.
     pub fn remark_on_configuration(&self, configuration: &[f64]) -> Option<CellRemark> {
-        let named = self.independent_joint_names().zip(configuration);
-        let mut remarks = named.filter_map(|(name, &position)| {
+        let positions = self.independent_joint_names().zip(configuration);
+        let mut remarks = positions.filter_map(|(name, &position)| {
             let remark = Remark::remark_on_joint(position)?;
             let mut joints = self.joints().iter();
             let joint = joints.find(|joint| joint.name == name)?;
@@ -92,17 +94,19 @@ impl Robot {
 
     /// Returns the frames of all links, with each joint at 0 or at its limit nearest to 0.
     fn frames_near_zero(&self) -> impl Iterator<Item = (usize, Pose)> {
-        let at = self.configuration_nearest_zero();
+        let configuration = self.configuration_nearest_zero();
         let links = self.links().iter().enumerate();
-        links.filter_map(move |(number, link)| Some((number, self.pose(&link.name, &at).ok()?)))
+        links.filter_map(move |(index, link)| {
+            Some((index, self.pose(&link.name, &configuration).ok()?))
+        })
     }
 
     /// Returns the longest range of a prismatic joint.
     fn longest_travel(&self) -> f64 {
         let joints = self.joints().iter().map(|joint| &joint.geometry);
-        let slides = joints.filter(|joint| matches!(joint.kind(), JointKind::Prismatic(_)));
-        let travel = slides.map(|joint| joint.limits().end() - joint.limits().start());
-        travel.fold(0.0, greater)
+        let prismatic = joints.filter(|joint| matches!(joint.kind(), JointKind::Prismatic(_)));
+        let travels = prismatic.map(|joint| joint.limits().end() - joint.limits().start());
+        travels.fold(0.0, greater)
     }
 }
 
@@ -117,20 +121,20 @@ impl SizeScale {
             .or_else(|| self.remark_on_large(item, sides))
     }
 
-    /// Returns a remark if an item is far too large. Items thinner than the robot are accepted: floors and walls have
-    /// any length.
+    /// Returns a remark if an item is far too large. An item that is thinner than the robot may have any length, because
+    /// it may be a floor or a wall.
     fn remark_on_large(&self, item: &str, sides: [f64; 3]) -> Option<CellRemark> {
         let robot_size = self.size.filter(|&size| size > 0.0)?;
         let [thickness, size] = [
             sides.into_iter().fold(f64::INFINITY, lesser),
             sides.into_iter().fold(0.0, greater),
         ];
-        let usual = if self.travel.is_finite() {
+        let largest_usual_size = if self.travel.is_finite() {
             MAX_USUAL_SIZE_RATIO * greater(robot_size, self.travel)
         } else {
-            MAX_USUAL_SIZE_RATIO_OF_FREE * robot_size
+            MAX_USUAL_SIZE_RATIO_IF_UNLIMITED * robot_size
         };
-        let is_large = size > usual && thickness > robot_size;
+        let is_large = size > largest_usual_size && thickness > robot_size;
         is_large.then(|| unlikely_size(item, size, robot_size))
     }
 }

@@ -117,32 +117,33 @@ impl Cast {
     ) -> Result<T, CastError> {
         let frames = shifted.map(|shifted| shifted.motion);
         let side = shifted[1 - index].without_ball_rotation(body);
-        let stray = side.deviation_bound;
+        let deviation_bound = side.deviation_bound;
         let side = side.motion_with_extent(body);
-        let of_plane = shifted[index].half_space_motion(&side);
+        let plane_motion = shifted[index].half_space_motion(&side);
         let within = self.settings(&[body], body.slack())?;
         let within = within.margin + within.tolerance;
-        let wanted = self.interval.length();
+        let duration = self.interval.length();
         let reach =
-            |horizon: QueryDuration| plane.reach(of_plane, side, within, horizon.duration());
-        let horizon = plane.query_duration(of_plane, side, within, wanted);
-        // The box deviates by the motion's deviation at its farthest point, which the bound covers.
+            |horizon: QueryDuration| plane.reach(plane_motion, side, within, horizon.duration());
+        let horizon = plane.query_duration(plane_motion, side, within, duration);
+        // The box deviates by at most the motion's deviation at its farthest point.
         let reach = reach(horizon);
-        let away = length(of_plane.about - of_plane.motion.center());
-        let off = shifted[index].deviation_bound.at_reach(4.0 * reach + away);
+        let plane_distance_from_center = length(plane_motion.about - plane_motion.motion.center());
+        let plane_deviation = shifted[index]
+            .deviation_bound
+            .at_reach(4.0 * reach + plane_distance_from_center);
         let slack = body.slack()
-            + max_point_deviation(stray, &side)
-            + off
+            + max_point_deviation(deviation_bound, &side)
+            + plane_deviation
             + self.displacement_error_bound(reach);
         let settings = self.settings(&[body], slack)?;
-        let stand_in =
-            plane
-                .covering_box(of_plane, 2.0 * reach)
-                .map_err(|error| CastError::Shape {
-                    shape_number: index as u8 + 1,
-                    error,
-                })?;
-        let (mut bodies, mut motions) = ([&stand_in, body], [of_plane.motion, side.motion]);
+        let plane_box = plane
+            .covering_box(plane_motion, 2.0 * reach)
+            .map_err(|error| CastError::Shape {
+                shape_number: index as u8 + 1,
+                error,
+            })?;
+        let (mut bodies, mut motions) = ([&plane_box, body], [plane_motion.motion, side.motion]);
         if index == 1 {
             bodies.reverse();
             motions.reverse();
@@ -165,25 +166,26 @@ impl Cast {
         scene: &Scene<'_>,
         solver: &mut Solver,
     ) -> Result<Option<CastHit>, CastError> {
-        let found = scene.first_contact(solver)?;
-        match found {
-            Some(found)
-                if found.status == CastStatus::Overlap
+        let hit = scene.first_contact(solver)?;
+        match hit {
+            Some(hit)
+                if hit.status == CastStatus::Overlap
                     && self.start_policy == StartPolicy::Leave
                     && scene.may_ignore_overlap() =>
             {
-                first_contact_unless_separating(scene, found, solver)
+                first_contact_unless_separating(scene, hit, solver)
             }
-            _ => Ok(found),
+            _ => Ok(hit),
         }
     }
 
-    /// Returns both motions from the start of the interval on, as seen by an observer who moves with the velocity of
-    /// the second body. A large common velocity then costs no digits.
+    /// Returns both motions from the start of the interval on, relative to an observer who moves with the velocity of
+    /// the second body. So a large common velocity does not increase rounding errors.
     fn relative_motions_from_start(&self) -> Result<[MotionFromCastStart; 2], CastError> {
-        let along = self.motions[1].velocity();
-        let shifted =
-            |motion: &Motion| MotionFromCastStart::new(motion, self.interval.start, along);
+        let observer_velocity = self.motions[1].velocity();
+        let shifted = |motion: &Motion| {
+            MotionFromCastStart::new(motion, self.interval.start, observer_velocity)
+        };
         CastError::motions_or_error(self.motions.each_ref().map(shifted))
     }
 
@@ -196,15 +198,15 @@ impl Cast {
         }
     }
 
-    /// Returns the tolerance of the cast: that of the options, or a default that is smaller for tiny bodies.
+    /// Returns the tolerance of the cast: the tolerance of the options, or a default that is smaller for tiny bodies.
     fn tolerance(&self, bodies: &[&BodyOfShape]) -> f64 {
         let sizes = bodies.iter().map(|body| body.enclosing_ball.1);
         let sizes = sizes.filter(|size| *size > 0.0);
-        let by_default = sizes.fold(self.default_tolerance, |least, size| {
+        let default = sizes.fold(self.default_tolerance, |least, size| {
             lesser(least, MAX_TOLERANCE_RADIUS_RATIO * size)
         });
-        let asked = self.options.tolerance;
-        asked.unwrap_or(greater(by_default, LEAST_TOLERANCE))
+        let from_options = self.options.tolerance;
+        from_options.unwrap_or(greater(default, LEAST_TOLERANCE))
     }
 
     /// Returns the engine's settings for bodies whose points deviate by at most `slack`.
@@ -229,7 +231,7 @@ impl Cast {
 }
 
 impl MotionFromCastStart {
-    fn new(motion: &Motion, start: f64, along: DVec3) -> Result<Self, InputError> {
+    fn new(motion: &Motion, start: f64, observer_velocity: DVec3) -> Result<Self, InputError> {
         // All points of a body that does not rotate move straight; its origin as the center rounds least.
         let center = if motion.angular_velocity() == DVec3::ZERO {
             DVec3::ZERO
@@ -244,24 +246,24 @@ impl MotionFromCastStart {
         )?;
         let Stretch {
             motion,
-            deviation_bound: stray,
+            deviation_bound,
             ..
         } = motion.stretch_between(start, start)?;
-        let velocity = motion.velocity() - along;
+        let velocity = motion.velocity() - observer_velocity;
         Ok(MotionFromCastStart {
             motion: Motion::about(motion.start(), velocity, motion.angular_velocity(), center)?,
-            deviation_bound: stray,
+            deviation_bound,
         })
     }
 
     /// Returns the motion with a ball that contains the body, and whose center moves in a straight line.
     fn motion_with_extent(&self, body: &BodyOfShape) -> MotionWithExtent {
-        let (middle, radius) = body.enclosing_ball;
-        let about = self.rotation_center_or(middle);
+        let (center, radius) = body.enclosing_ball;
+        let about = self.rotation_center_or(center);
         MotionWithExtent {
             motion: self.motion,
             about,
-            max_radius: (length(middle - about) + radius) * ROUNDING_ENLARGEMENT,
+            max_radius: (length(center - about) + radius) * ROUNDING_ENLARGEMENT,
         }
     }
 
@@ -277,10 +279,10 @@ impl MotionFromCastStart {
     /// the center.
     fn half_space_motion(&self, other: &MotionWithExtent) -> MotionWithExtent {
         let start = self.motion.start();
-        let beside = start.inverse().transform_point(other.start_position());
+        let body_start = start.inverse().transform_point(other.start_position());
         MotionWithExtent {
             motion: self.motion,
-            about: self.rotation_center_or(beside),
+            about: self.rotation_center_or(body_start),
             max_radius: 0.0,
         }
     }
@@ -291,17 +293,17 @@ impl MotionFromCastStart {
             return self;
         }
         let [velocity, center] = [self.motion.velocity(), self.motion.center()];
-        let slides = Motion::about(self.motion.start(), velocity, DVec3::ZERO, center);
+        let without_rotation = Motion::about(self.motion.start(), velocity, DVec3::ZERO, center);
         MotionFromCastStart {
-            motion: slides.unwrap_or(self.motion),
+            motion: without_rotation.unwrap_or(self.motion),
             ..self
         }
     }
 }
 
 /// Returns a bound on the deviation of any point of a body, as a length.
-fn max_point_deviation(stray: DeviationBound, side: &MotionWithExtent) -> f64 {
-    stray.at_reach(side.max_radius + length(side.about - side.motion.center()))
+fn max_point_deviation(deviation_bound: DeviationBound, side: &MotionWithExtent) -> f64 {
+    deviation_bound.at_reach(side.max_radius + length(side.about - side.motion.center()))
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Tests whether a mesh is closed.
+//! Tests whether a triangle mesh is closed.
 
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
@@ -6,11 +6,11 @@ use std::collections::HashMap;
 
 /// Returns an edge that triangles use more often in one direction than in the other; `None` for a closed mesh.
 ///
-/// Vertices at one place count as one.
+/// Vertices at the same position count as one vertex.
 pub(crate) fn find_open_edge(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Option<[u32; 2]> {
     let mut first_at: HashMap<[u64; 3], u32> = HashMap::new();
-    // Adding zero makes both zeros equal.
-    let place = |v: u32| {
+    // Adding 0 turns -0 into 0.
+    let position_bits = |v: u32| {
         vertices
             .get(v as usize)
             .map(|p| p.to_array().map(|x| (x + 0.0).to_bits()))
@@ -19,7 +19,7 @@ pub(crate) fn find_open_edge(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Opti
     for triangle in triangles {
         let mut corners = [0; 3];
         for (corner, &v) in corners.iter_mut().zip(triangle) {
-            *corner = *first_at.entry(place(v)?).or_insert(v);
+            *corner = *first_at.entry(position_bits(v)?).or_insert(v);
         }
         for k in 0..3 {
             let (from, to) = (corners[k], corners[(k + 1) % 3]);
@@ -30,8 +30,8 @@ pub(crate) fn find_open_edge(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Opti
             }
         }
     }
-    let open = balance.into_iter().filter(|(_, passes)| *passes != 0);
-    open.map(|(edge, _)| edge).min()
+    let open_edges = balance.into_iter().filter(|(_, balance)| *balance != 0);
+    open_edges.map(|(edge, _)| edge).min()
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use ccd_core::InputError;
 
 /// The reason why a cast has no answer.
 ///
-/// parry's error, `Unsupported`, tells nothing. It is made from this one, by the functions with parry's signatures.
+/// The functions with parry's signatures convert it to parry's error `Unsupported`, which contains no reason.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CastError {
@@ -48,21 +48,21 @@ pub enum CastError {
 }
 
 impl CastError {
-    /// Returns both results, or the first error, with the number of the motion that it is about.
+    /// Returns both results, or the first error with the number of its motion.
     pub(crate) fn motions_or_error<T>(
-        made: [Result<T, InputError>; 2],
+        results: [Result<T, InputError>; 2],
     ) -> Result<[T; 2], CastError> {
-        both_or_error(made, |motion_number, error| CastError::Motion {
+        both_or_error(results, |motion_number, error| CastError::Motion {
             motion_number,
             error,
         })
     }
 
-    /// Returns both results, or the first error, with the number of the shape that it is about.
+    /// Returns both results, or the first error with the number of its shape.
     pub(crate) fn shapes_or_error<T>(
-        made: [Result<T, ShapeError>; 2],
+        results: [Result<T, ShapeError>; 2],
     ) -> Result<[T; 2], CastError> {
-        both_or_error(made, |shape_number, error| CastError::Shape {
+        both_or_error(results, |shape_number, error| CastError::Shape {
             shape_number,
             error,
         })
@@ -71,11 +71,11 @@ impl CastError {
 
 fn both_or_error<T, E>(
     [a, b]: [Result<T, E>; 2],
-    named: fn(u8, E) -> CastError,
+    with_number: fn(u8, E) -> CastError,
 ) -> Result<[T; 2], CastError> {
     let (a, b) = (
-        a.map_err(|error| named(1, error)),
-        b.map_err(|error| named(2, error)),
+        a.map_err(|error| with_number(1, error)),
+        b.map_err(|error| with_number(2, error)),
     );
     Ok([a?, b?])
 }
@@ -88,7 +88,7 @@ pub enum ShapeError {
     #[error("the shape is of a custom type, whose points are not known")]
     CustomShapeType,
     /// A half-space is a part of a compound, or is given where a bounded body is required.
-    #[error("a half-space is served alone only, and not as a body")]
+    #[error("a half-space must not be a part of a compound, and cannot become a body")]
     HalfSpace,
     /// A size of the shape is negative, NaN or infinite.
     #[error("its {what} is {value}, but must be at least 0 and finite")]
@@ -100,7 +100,7 @@ pub enum ShapeError {
     },
     /// A polytope around a round shape would need too many corners.
     #[error(
-        "a polytope about it that exceeds it by only {requested_excess} would have too many corners; {least_excess} can be had"
+        "a polytope that exceeds the shape by only {requested_excess} would have too many corners; at least {least_excess} is possible"
     )]
     ExcessTooSmall {
         /// The excess that the options allow, in the scene's unit of length.
@@ -109,7 +109,7 @@ pub enum ShapeError {
         least_excess: f64,
     },
     /// The shape is a cylinder or a cone, which the [options](crate::Excess::NotAllowed) refuse.
-    #[error("it is a cylinder or a cone, for which the options allow no polytope about it")]
+    #[error("the shape is a cylinder or a cone, and the options allow no enclosing polytope")]
     SolidOfRevolutionRefused,
     /// An oriented mesh that should be a solid is not closed.
     #[error(
@@ -121,7 +121,7 @@ pub enum ShapeError {
         /// The index of the other end.
         other_end_index: u32,
     },
-    /// Voxels have sizes or positions that parry itself cannot distinguish.
+    /// The voxels are too small, too large or too far from the origin for parry to distinguish them.
     #[error("its voxels are too far from the origin, or of a size that is not positive")]
     UnresolvableVoxels,
     /// The shape is a compound of compounds that is nested too deeply.

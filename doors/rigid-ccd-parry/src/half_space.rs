@@ -1,9 +1,9 @@
 //! Replaces a half-space by a box that is large enough for one cast.
 //!
-//! The other body stays within a ball about a point of the half-space, in the half-space's frame. A box that holds the
-//! part of the half-space in that ball, and hardly more, has the same contacts.
+//! In the half-space's frame, the other body stays within a ball about a point of the half-space during the cast. A box
+//! that contains the part of the half-space in this ball, and little more, has the same contacts.
 
-use crate::form::ShapeGeometry;
+use crate::geometry::ShapeGeometry;
 use crate::horizon::{MotionWithExtent, QueryDuration, repetition_time, rotation_period};
 use crate::order::{greater, length, lesser};
 use crate::tolerance::{MAX_HALF_SPACE_BOX_EXTENT, PLANE_HEIGHT_ROUNDING, ROUNDING_ENLARGEMENT};
@@ -24,15 +24,16 @@ impl HalfSpace {
     /// # Errors
     /// [`ShapeError::InvalidSize`] for a normal that has no direction.
     pub(crate) fn new(normal: DVec3) -> Result<Self, ShapeError> {
-        let size = ShapeError::InvalidSize {
+        let invalid_normal = ShapeError::InvalidSize {
             what: "normal",
             value: length(normal),
         };
         let unit = unit(normal).filter(|_| normal.is_finite());
-        unit.map(|normal| HalfSpace { normal }).ok_or(size)
+        unit.map(|normal| HalfSpace { normal })
+            .ok_or(invalid_normal)
     }
 
-    /// Returns the duration of the engine's query for a cast over the time `wanted`, with the contact distance
+    /// Returns the duration of the engine's query for a cast over a duration, with the contact distance
     /// `within`.
     ///
     /// `plane` is the half-space's motion, about any point of it.
@@ -41,18 +42,18 @@ impl HalfSpace {
         plane: MotionWithExtent,
         body: MotionWithExtent,
         within: f64,
-        wanted: f64,
+        duration: f64,
     ) -> QueryDuration {
         let needed = self.duration_until_decided(plane, body, within);
-        let needed = needed.map_or(wanted, |needed| lesser(wanted, needed));
+        let needed = needed.map_or(duration, |needed| lesser(duration, needed));
         let horizon = QueryDuration::for_duration([plane, body], needed);
         // The box that replaces a plane is as wide as the displacement along it, and has its rounding.
         let size =
             body.max_radius + within + length(body.start_position() - plane.start_position());
         let speed = length(body.motion.velocity() - plane.motion.velocity());
-        let most = MAX_HALF_SPACE_BOX_EXTENT * size / speed;
-        if speed > 0.0 && horizon.duration() > most {
-            QueryDuration::PartOfCast(most)
+        let longest_duration = MAX_HALF_SPACE_BOX_EXTENT * size / speed;
+        if speed > 0.0 && horizon.duration() > longest_duration {
+            QueryDuration::PartOfCast(longest_duration)
         } else {
             horizon
         }
@@ -68,15 +69,15 @@ impl HalfSpace {
     ) -> Option<f64> {
         let [p, b] = [plane.motion, body.motion];
         if p.velocity() == b.velocity() {
-            // In the plane's frame the body rotates in place, or goes around.
+            // In the plane's frame the body rotates in place, or moves on a circle.
             return repetition_time([plane, body]);
         }
         if p.angular_velocity() != DVec3::ZERO {
             return None;
         }
         let velocity = b.velocity() - p.velocity();
-        let upright = p.start().rotation() == DQuat::IDENTITY;
-        if upright && self.normal * velocity == DVec3::ZERO {
+        let is_upright = p.start().rotation() == DQuat::IDENTITY;
+        if is_upright && self.normal * velocity == DVec3::ZERO {
             // The body moves exactly along the plane.
             return Some(rotation_period(b.angular_velocity()));
         }
@@ -84,10 +85,10 @@ impl HalfSpace {
         let (from, to) = (p.start().translation(), body.start_position());
         let rate = normal.dot(velocity);
         let rounding = PLANE_HEIGHT_ROUNDING * length(velocity);
-        let spread = plane.position_magnitude_sum() + body.position_magnitude_sum();
+        let magnitude = plane.position_magnitude_sum() + body.position_magnitude_sum();
         let height = normal.dot(to - from);
         let reach =
-            (body.max_radius + within + PLANE_HEIGHT_ROUNDING * spread) * ROUNDING_ENLARGEMENT;
+            (body.max_radius + within + PLANE_HEIGHT_ROUNDING * magnitude) * ROUNDING_ENLARGEMENT;
         let needed = if rate < 0.0 {
             height + reach
         } else {
@@ -107,12 +108,12 @@ impl HalfSpace {
     ) -> f64 {
         let [p, b] = [plane.start_position(), body.start_position()];
         let speed = length(body.motion.velocity() - plane.motion.velocity());
-        let spread = plane.position_magnitude_sum() + body.position_magnitude_sum();
+        let magnitude = plane.position_magnitude_sum() + body.position_magnitude_sum();
         (length(b - p)
             + speed * duration
             + body.max_radius
             + within
-            + PLANE_HEIGHT_ROUNDING * spread)
+            + PLANE_HEIGHT_ROUNDING * magnitude)
             * ROUNDING_ENLARGEMENT
     }
 
@@ -124,22 +125,28 @@ impl HalfSpace {
     ) -> Result<BodyOfShape, ShapeError> {
         let normal = self.normal;
         let height = normal.dot(plane.about);
-        let middle = plane.about - height * normal;
-        let across = normal.any_orthonormal_vector();
-        let along = normal.cross(across);
+        let center = plane.about - height * normal;
+        let axis_u = normal.any_orthonormal_vector();
+        let axis_v = normal.cross(axis_u);
         // The face is above the plane, whatever rounding does to the corners.
         let above = PLANE_HEIGHT_ROUNDING * (reach + length(plane.about));
         let below = -(reach + above) + lesser(height, 0.0);
-        let wide = reach * ROUNDING_ENLARGEMENT + above;
+        let half_width = reach * ROUNDING_ENLARGEMENT + above;
         let corner = |k: u32| {
-            let side = |bit: u32| if k >> bit & 1 == 1 { wide } else { -wide };
+            let side = |bit: u32| {
+                if k >> bit & 1 == 1 {
+                    half_width
+                } else {
+                    -half_width
+                }
+            };
             let high = if k & 4 == 4 { above } else { below };
-            middle + side(0) * across + side(1) * along + high * normal
+            center + side(0) * axis_u + side(1) * axis_v + high * normal
         };
-        let mut form = ShapeGeometry::EMPTY;
-        form.excess = 2.0 * above;
-        form.push_box_of_corners((0..8).map(corner).collect(), 0.0);
-        BodyOfShape::new(&form)
+        let mut geometry = ShapeGeometry::EMPTY;
+        geometry.excess = 2.0 * above;
+        geometry.push_box_of_corners((0..8).map(corner).collect(), 0.0);
+        BodyOfShape::new(&geometry)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Replaces the unlimited duration of a cast by a finite one that decides it.
 //!
-//! Each body stays within a ball about its center, and centers move straight. Contact is over for good once the balls
-//! have passed each other, and a motion that repeats itself need be looked at once.
+//! Each body stays within a ball about its center, and centers move in straight lines. After the balls have passed each
+//! other, no contact is possible. A periodic relative motion needs to be examined for one period only.
 
 use crate::order::{greater, length, lesser};
 use crate::tolerance::{LONGEST_DURATION, ROUNDING_ENLARGEMENT, USED_SHARE_OF_LIMITS};
@@ -49,24 +49,23 @@ impl QueryDuration {
         }
     }
 
-    /// Returns the duration of the engine's query for a cast of two bodies over the time `wanted`, with the contact
-    /// distance `within`.
-    pub(crate) fn new(bodies: [MotionWithExtent; 2], within: f64, wanted: f64) -> Self {
+    /// Returns the duration of the engine's query for a cast of two bodies over a duration, with the contact distance `within`.
+    pub(crate) fn new(bodies: [MotionWithExtent; 2], within: f64, duration: f64) -> Self {
         let needed = [
             time_when_past_each_other(bodies, within),
             repetition_time(bodies),
         ];
-        QueryDuration::for_duration(bodies, needed.into_iter().flatten().fold(wanted, lesser))
+        QueryDuration::for_duration(bodies, needed.into_iter().flatten().fold(duration, lesser))
     }
 
     /// Returns a query of the duration `needed`, which decides the whole cast, or a query of the longest accepted duration
     /// if that is shorter.
     pub(crate) fn for_duration(bodies: [MotionWithExtent; 2], needed: f64) -> Self {
-        let possible = longest_duration(bodies);
-        if needed <= possible {
+        let longest = longest_duration(bodies);
+        if needed <= longest {
             QueryDuration::WholeCast(needed)
         } else {
-            QueryDuration::PartOfCast(possible)
+            QueryDuration::PartOfCast(longest)
         }
     }
 }
@@ -93,10 +92,10 @@ pub(crate) fn max_relative_displacement([a, b]: &[MotionWithExtent; 2], within: 
 /// differently.
 pub(crate) fn repetition_time(bodies: [MotionWithExtent; 2]) -> Option<f64> {
     let [a, b] = bodies.map(|body| body.motion);
-    let still = a.angular_velocity() == DVec3::ZERO || b.angular_velocity() == DVec3::ZERO;
+    let is_one_still = a.angular_velocity() == DVec3::ZERO || b.angular_velocity() == DVec3::ZERO;
     // Two bodies that both turn repeat their poses if they do so about parallel axes, at one rate.
-    let repeats =
-        a.velocity() == b.velocity() && (still || a.angular_velocity() == b.angular_velocity());
+    let repeats = a.velocity() == b.velocity()
+        && (is_one_still || a.angular_velocity() == b.angular_velocity());
     repeats.then(|| {
         greater(
             rotation_period(a.angular_velocity()),
@@ -106,11 +105,11 @@ pub(crate) fn repetition_time(bodies: [MotionWithExtent; 2]) -> Option<f64> {
 }
 
 /// Returns the time of a whole turn, rounded up; 0 without rotation.
-pub(crate) fn rotation_period(spin: DVec3) -> f64 {
-    if spin == DVec3::ZERO {
+pub(crate) fn rotation_period(angular_velocity: DVec3) -> f64 {
+    if angular_velocity == DVec3::ZERO {
         0.0
     } else {
-        TAU / length(spin) * ROUNDING_ENLARGEMENT
+        TAU / length(angular_velocity) * ROUNDING_ENLARGEMENT
     }
 }
 
@@ -118,25 +117,26 @@ pub(crate) fn rotation_period(spin: DVec3) -> f64 {
 fn longest_duration(bodies: [MotionWithExtent; 2]) -> f64 {
     // The engine's origin is at one of the bodies.
     let origins = bodies.map(|body| body.motion.start().translation());
-    let of = |body: &MotionWithExtent| {
+    let longest_of = |body: &MotionWithExtent| {
         let motion = &body.motion;
         let center = motion.start().transform_point(motion.center());
-        let far = origins.map(|origin| length(center - origin));
-        let left = MAX_COORDINATE * USED_SHARE_OF_LIMITS - greater(far[0], far[1]);
+        let distances = origins.map(|origin| length(center - origin));
+        let free_length =
+            MAX_COORDINATE * USED_SHARE_OF_LIMITS - greater(distances[0], distances[1]);
         let (speed, rate) = (length(motion.velocity()), length(motion.angular_velocity()));
-        let travel = if speed > 0.0 {
-            greater(left, 0.0) / speed
+        let translation_limit = if speed > 0.0 {
+            greater(free_length, 0.0) / speed
         } else {
             LONGEST_DURATION
         };
-        let turn = if rate > 0.0 {
+        let rotation_limit = if rate > 0.0 {
             MAX_ROTATION_ANGLE * USED_SHARE_OF_LIMITS / rate
         } else {
             LONGEST_DURATION
         };
-        lesser(travel, turn)
+        lesser(translation_limit, rotation_limit)
     };
-    bodies.iter().map(of).fold(LONGEST_DURATION, lesser)
+    bodies.iter().map(longest_of).fold(LONGEST_DURATION, lesser)
 }
 
 #[cfg(test)]

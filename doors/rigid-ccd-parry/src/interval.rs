@@ -16,16 +16,16 @@ impl Interval {
     /// # Errors
     /// [`CastError::InvalidNumber`] for NaN, and for a start that is infinite.
     pub(crate) fn new(start: f64, end: f64) -> Result<Option<Self>, CastError> {
-        let number = |what, value, allowed| CastError::InvalidNumber {
+        let invalid_number = |what, value, allowed| CastError::InvalidNumber {
             what,
             value,
             allowed,
         };
         if !start.is_finite() {
-            return Err(number("the start time", start, "finite"));
+            return Err(invalid_number("the start time", start, "finite"));
         }
         if end.is_nan() {
-            return Err(number("the end time", end, "a number"));
+            return Err(invalid_number("the end time", end, "a number"));
         }
         Ok((start <= end).then_some(Interval { start, end }))
     }
@@ -39,12 +39,12 @@ impl Interval {
         }
     }
 
-    /// Returns the sum of the start and `after`, rounded down and clamped to the interval.
-    pub(crate) fn cast_time_at_offset(self, after: f64) -> f64 {
+    /// Returns the sum of the start and `offset`, rounded down and clamped to the interval.
+    pub(crate) fn cast_time_at_offset(self, offset: f64) -> f64 {
         let time = if self.start == 0.0 {
-            after
+            offset
         } else {
-            (self.start + after).next_down()
+            (self.start + offset).next_down()
         };
         lesser(greater(self.start, time), self.end)
     }

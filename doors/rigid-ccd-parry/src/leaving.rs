@@ -1,12 +1,12 @@
 //! Ignores the overlap of pieces at the start of a linear cast if they begin to separate, as parry does.
 //!
-//! Two convex pieces that move straight overlap for one stretch of time. Once they separate they never meet again: a
-//! pair that begins to separate is left out, and all other pairs are asked about. parry, too, looks at each pair by
-//! itself.
+//! Two convex pieces that move in straight lines overlap for one interval of time. After they separate they never meet
+//! again. So a pair that begins to separate is ignored, and all other pairs are examined. parry also examines each pair
+//! separately.
 
 mod direction;
 
-use crate::form::ShapeGeometry;
+use crate::geometry::ShapeGeometry;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, CastStatus, Scene};
 use crate::tolerance::{MAX_SLIDING_APPROACH_RATIO, ROUNDING_ENLARGEMENT};
@@ -20,8 +20,8 @@ use rigid_ccd::Solver;
 /// contact at the start.
 const MAX_SEPARATING_PAIRS: usize = 256;
 
-/// Returns the first contact of all pairs of pieces that do not begin to separate; `overlap`, the hit at the start, if
-/// one of these overlaps.
+/// Returns the first contact of all pairs of pieces that do not begin to separate. If one of these pairs overlaps at the
+/// start, returns `overlap`, the hit at the start.
 pub(crate) fn first_contact_unless_separating(
     scene: &Scene<'_>,
     overlap: CastHit,
@@ -29,37 +29,37 @@ pub(crate) fn first_contact_unless_separating(
 ) -> Result<Option<CastHit>, CastError> {
     // Each task is two sets of pieces, one of each body, all pairs of which are to be examined.
     let mut tasks = vec![[0, 1].map(|k| piece_indices_near_other(scene, k))];
-    let (mut first, mut left_out): (Option<CastHit>, _) = (None, 0);
+    let (mut first, mut ignored_count): (Option<CastHit>, _) = (None, 0);
     while let Some(task) = tasks.pop() {
         if task.iter().any(Vec::is_empty) {
             continue;
         }
-        let Some(found) = first_contact_of_pieces(scene, &task, solver)? else {
+        let Some(hit) = first_contact_of_pieces(scene, &task, solver)? else {
             continue;
         };
-        match found.status {
+        match hit.status {
             CastStatus::Overlap => {
-                left_out += 1;
-                let [a, b] = found.sub_shape_indices;
-                if left_out > MAX_SEPARATING_PAIRS
+                ignored_count += 1;
+                let [a, b] = hit.sub_shape_indices;
+                if ignored_count > MAX_SEPARATING_PAIRS
                     || !pieces_separate_or_slide(scene, [a, b], solver)
                 {
                     return Ok(Some(overlap));
                 }
-                let [mut of_a, of_b] = task;
-                let others_of_b = of_b.iter().copied().filter(|piece| *piece != b);
+                let [mut pieces_a, pieces_b] = task;
+                let others_of_b = pieces_b.iter().copied().filter(|piece| *piece != b);
                 tasks.push([vec![a], others_of_b.collect()]);
-                of_a.retain(|piece| *piece != a);
-                tasks.push([of_a, of_b]);
+                pieces_a.retain(|piece| *piece != a);
+                tasks.push([pieces_a, pieces_b]);
             }
             CastStatus::Inside => return Ok(Some(overlap)),
             CastStatus::WithinTargetAtStart | CastStatus::Contact | CastStatus::Limit => {
-                if first.is_none_or(|first| found.time < first.time) {
-                    let numbers =
-                        [0, 1].map(|k| scene.bodies[k].sub_shape_index(found.sub_shape_indices[k]));
+                if first.is_none_or(|first| hit.time < first.time) {
+                    let sub_shape_indices =
+                        [0, 1].map(|k| scene.bodies[k].sub_shape_index(hit.sub_shape_indices[k]));
                     first = Some(CastHit {
-                        sub_shape_indices: numbers,
-                        ..found
+                        sub_shape_indices,
+                        ..hit
                     });
                 }
             }
@@ -85,17 +85,17 @@ fn first_contact_of_pieces(
 
 /// Returns a body of the given pieces, with the pieces' indices as sub-shape indices.
 fn body_of_pieces(body: &BodyOfShape, pieces: &[u32]) -> Result<BodyOfShape, crate::ShapeError> {
-    let mut form = ShapeGeometry::EMPTY;
+    let mut geometry = ShapeGeometry::EMPTY;
     for &number in pieces {
         let piece = body.body().pieces().get(number as usize);
-        form.push_hull(
+        geometry.push_hull(
             piece.points.to_vec(),
             piece.radius,
             piece.facets.iter(),
             number,
         );
     }
-    BodyOfShape::new(&form)
+    BodyOfShape::new(&geometry)
 }
 
 /// Returns the indices of the pieces of body `k` that the other body may reach during the cast.
@@ -103,18 +103,18 @@ fn piece_indices_near_other(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let [this, other] = [k, 1 - k].map(|k| (scene.bodies[k], &scene.motions[k]));
     let velocity = other.1.velocity() - this.1.velocity();
     let displacement = velocity * scene.horizon.duration();
-    let (middle, radius) = other.0.enclosing_ball;
+    let (center, radius) = other.0.enclosing_ball;
     // The position at the start, in the world.
-    let from = other.1.start().transform_point(middle);
+    let from = other.1.start().transform_point(center);
     let within = scene.settings.margin + scene.settings.tolerance + radius;
     let comes_near = |piece: &Piece<'_>| {
-        let (middle, radius) = bounding_ball(piece);
-        let place = this.1.start().transform_point(middle);
+        let (center, radius) = bounding_ball(piece);
+        let position = this.1.start().transform_point(center);
         let rounding =
-            (ROUNDING_ENLARGEMENT - 1.0) * (length(place) + length(from) + length(displacement));
-        let apart = distance_to_segment(place - from, displacement);
+            (ROUNDING_ENLARGEMENT - 1.0) * (length(position) + length(from) + length(displacement));
+        let distance = distance_to_segment(position - from, displacement);
         // The comparison treats NaN as near.
-        !(apart > (within + radius) * ROUNDING_ENLARGEMENT + rounding)
+        !(distance > (within + radius) * ROUNDING_ENLARGEMENT + rounding)
     };
     let pieces = (0..).zip(this.0.body().pieces().iter());
     pieces
@@ -137,8 +137,8 @@ fn distance_to_segment(point: DVec3, displacement: DVec3) -> f64 {
 /// Returns a ball around a piece: its center and its radius.
 fn bounding_ball(piece: &Piece<'_>) -> (DVec3, f64) {
     let first = piece.points[0];
-    let reach = piece.points.iter().map(|p| length(*p - first));
-    (first, reach.fold(0.0, greater) + piece.radius)
+    let distances = piece.points.iter().map(|p| length(*p - first));
+    (first, distances.fold(0.0, greater) + piece.radius)
 }
 
 /// Returns whether two pieces that overlap at the start begin to move apart, or slide along each other.

@@ -12,5 +12,5 @@ pub const MAX_CACHED_BYTES: usize = 256 << 20;
 /// The maximum number of cached bodies per thread, for the functions with parry's signatures.
 pub const MAX_CACHED_BODIES: usize = 64;
 
-/// The default limit of a cast's work: about a second, and some seconds for bodies that both turn many times.
+/// The default limit of a cast's work. It takes about a second, or some seconds if both bodies make many turns.
 pub const DEFAULT_BUDGET: u64 = 1 << 20;

@@ -14,15 +14,15 @@ use std::time::Duration;
 pub struct Options {
     /// The distance above the target distance up to which a contact may be reported, in the scene's unit of length.
     ///
-    /// None is 1e-6 in single and 1e-9 in double precision, and at most a millionth of the smaller body's radius.
+    /// `None` means 1e-6 in single and 1e-9 in double precision, but at most a millionth of the smaller body's radius.
     pub tolerance: Option<f64>,
     /// The allowed excess of polytopes around cylinders and cones.
     pub excess: Excess,
     /// Whether a triangle mesh is a surface or a solid.
     pub meshes: Meshes,
-    /// The maximum work before a cast ends as `OutOfIterations`: [`Settings::budget`](ccd_core::Settings::budget). By
-    /// default it is a quarter of the engine's: about a second, and some seconds for bodies that both turn many times, of which a
-    /// step costs more. A cast that has to end in time has a deadline.
+    /// The maximum work before a cast ends as `OutOfIterations`: [`Settings::budget`](ccd_core::Settings::budget). The
+    /// default is a quarter of the engine's default. It takes about a second, or some seconds if both bodies make many
+    /// turns. Set a deadline to limit the time.
     pub budget: u64,
     /// The maximum duration before a cast ends as `OutOfIterations`:
     /// [`Settings::deadline`](ccd_core::Settings::deadline).
@@ -41,8 +41,8 @@ impl Default for Options {
     }
 }
 
-/// How far the polytope that stands for a cylinder or a cone may exceed it. Contacts are never late because of it, and
-/// early by at most the time in which the bodies approach by the excess.
+/// The distance by which the polytope around a cylinder or a cone may exceed it. Because of the excess, contacts may be
+/// early, by at most the time in which the bodies approach by the excess. They are never late.
 ///
 /// The polytope touches its shape along the axes, so that a cylinder that stands, or lies along an axis, is exact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,8 +59,8 @@ pub enum Excess {
 /// Whether the interior of a triangle mesh belongs to the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Meshes {
-    /// The interior is empty: only the triangles can be touched, as in all of parry's queries on two shapes. A room is
-    /// a mesh around its visitors.
+    /// The interior is empty: only the triangles can be touched, as in all of parry's queries on two shapes. For example,
+    /// bodies can move inside a mesh of a room.
     #[default]
     Surfaces,
     /// The interior is solid if the mesh has the flag `ORIENTED`, as in parry's point queries: a body inside is in

@@ -1,7 +1,7 @@
-//! Bodies made from shapes, with what casts need to know about them.
+//! Bodies made from shapes, with the bounds that casts need.
 
 use crate::ShapeError;
-use crate::form::ShapeGeometry;
+use crate::geometry::ShapeGeometry;
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
 
@@ -10,8 +10,8 @@ use ccd_core::glam::DVec3;
 /// # Guarantee
 /// Each point of the shape is at most [`slack`](BodyOfShape::slack) from the body, and each point of the body at most
 /// [`slack`](BodyOfShape::slack) + [`excess`](BodyOfShape::excess) from the shape. The casts of this crate add the slack to
-/// the target distance: they are never late for it. The [body's excess](Body::excess) is slack + excess, rounded up: upper
-/// bounds of distances hold for the shapes, lower ones less the slack of both.
+/// the target distance, so the slack makes no contact late. The [body's excess](Body::excess) is slack + excess, rounded
+/// up. So upper bounds of distances hold for the shapes. Subtract the slack of both bodies from lower bounds.
 #[derive(Clone, Debug)]
 pub struct BodyOfShape {
     body: Body,
@@ -26,28 +26,28 @@ pub struct BodyOfShape {
 
 impl BodyOfShape {
     /// Makes the body from the geometry of a shape.
-    pub(crate) fn new(form: &ShapeGeometry) -> Result<Self, ShapeError> {
-        let form = form.with_enclosing_polytope()?;
-        let (body, numbers) = form.body()?;
-        let together = if form.slack > 0.0 {
-            (form.slack + form.excess).next_up()
+    pub(crate) fn new(geometry: &ShapeGeometry) -> Result<Self, ShapeError> {
+        let geometry = geometry.with_enclosing_polytope()?;
+        let (body, sub_shape_indices) = geometry.body()?;
+        let total_excess = if geometry.slack > 0.0 {
+            (geometry.slack + geometry.excess).next_up()
         } else {
-            form.excess
+            geometry.excess
         };
         Ok(BodyOfShape {
-            body: body.with_excess(together).map_err(ShapeError::Body)?,
-            sub_shape_indices: numbers,
-            enclosing_ball: form.enclosing_ball(),
-            ball_center: form.center_if_ball(),
-            slack: form.slack,
-            excess: form.excess,
+            body: body.with_excess(total_excess).map_err(ShapeError::Body)?,
+            sub_shape_indices,
+            enclosing_ball: geometry.enclosing_ball(),
+            ball_center: geometry.center_if_ball(),
+            slack: geometry.slack,
+            excess: geometry.excess,
         })
     }
 
     /// Returns the body, in the shape's frame.
     ///
-    /// Features of a triangle mesh have the mesh's numbers. Vertices of other bodies of many parts have the number of
-    /// their part.
+    /// Features of a triangle mesh have the indices of the mesh. In other bodies of many parts, a vertex has the index of
+    /// its part.
     pub fn body(&self) -> &Body {
         &self.body
     }

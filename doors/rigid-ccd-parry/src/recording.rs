@@ -10,8 +10,8 @@ use std::{fs, io};
 /// A cast that the command `ccd` can repeat: both bodies and their motions from the start of the interval on.
 ///
 /// # Guarantee
-/// It is the question that the cast asks the engine, with its tolerance, its slack and its polytopes about round shapes;
-/// the command rounds orientations once more. Bodies that overlap at the start are not let go.
+/// The recording contains the query that the cast sends to the engine, with its tolerance, its slack and its polytopes
+/// around round shapes. The command rounds orientations again. It does not ignore bodies that overlap at the start.
 #[derive(Clone, Debug)]
 pub struct Recording {
     bodies: [Body; 2],
@@ -52,18 +52,18 @@ impl Recording {
     }
 
     /// Writes `a.ccd`, `b.ccd` and `motions.csv` to a folder, and returns the command that repeats the cast. The folder
-    /// is created if necessary. Time 0 of the table is the start of the cast, and both bodies are seen as by one who
-    /// moves along with the second.
+    /// is created if necessary. Time 0 of the table is the start of the cast. Motions are relative to an observer who
+    /// moves with the velocity of the second body.
     ///
     /// # Errors
     /// [`RecordError`].
     pub fn save(&self, folder: impl AsRef<Path>) -> Result<String, RecordError> {
         let folder = folder.as_ref();
-        let failed = |path: &Path| {
+        let write_error = |path: &Path| {
             let path = path.to_owned();
             move |source| RecordError::Write { path, source }
         };
-        fs::create_dir_all(folder).map_err(failed(folder))?;
+        fs::create_dir_all(folder).map_err(write_error(folder))?;
         let [a, b, motions] = ["a.ccd", "b.ccd", "motions.csv"].map(|name| folder.join(name));
         StoredBodyContent::from_body(&self.bodies[0])?.save(&a)?;
         StoredBodyContent::from_body(&self.bodies[1])?.save(&b)?;
@@ -76,16 +76,16 @@ impl Recording {
         ccd_file::write(&motions, |out| {
             write(out, &[query]).map_err(io::Error::other)
         })
-        .map_err(failed(&motions))?;
+        .map_err(write_error(&motions))?;
         let Settings {
             tolerance, margin, ..
         } = self.settings;
-        let start = match self.settings.start_policy {
+        let start_option = match self.settings.start_policy {
             StartPolicy::Leave => " --start leave",
             _ => "",
         };
         Ok(format!(
-            "ccd query --a {} --b {} --motions {} --tolerance {tolerance:e} --margin {margin:e}{start}",
+            "ccd query --a {} --b {} --motions {} --tolerance {tolerance:e} --margin {margin:e}{start_option}",
             a.display(),
             b.display(),
             motions.display(),

@@ -1,4 +1,4 @@
-//! The engine's query that stands for a cast, and the conversion of its answer to parry's terms.
+//! The engine's query for a cast, and the conversion of its answer to a hit.
 
 use crate::horizon::QueryDuration;
 use crate::interval::Interval;
@@ -62,16 +62,16 @@ impl Scene<'_> {
         Ok(self.hit_from_answer(&answer, solver))
     }
 
-    /// Returns whether overlapping bodies may be ignored while they part: only if both move in straight lines, and
-    /// their pieces overlap.
+    /// Returns whether overlapping bodies may be ignored while they separate: both must move in straight lines, and neither
+    /// may be a solid of many pieces.
     pub(crate) fn may_ignore_overlap(&self) -> bool {
-        let straight = |motion: &Motion| motion.angular_velocity() == DVec3::ZERO;
-        // Inside a solid mesh there may be no piece from which a body could part.
-        let bare = |body: &&BodyOfShape| {
+        let is_straight = |motion: &Motion| motion.angular_velocity() == DVec3::ZERO;
+        // A body inside a solid mesh may overlap no piece from which it could separate.
+        let has_no_inside = |body: &&BodyOfShape| {
             let body = body.body();
             body.pieces().len() == 1 || body.solidity() == Solidity::Surface
         };
-        self.motions.iter().all(straight) && self.bodies.iter().all(bare)
+        self.motions.iter().all(is_straight) && self.bodies.iter().all(has_no_inside)
     }
 
     fn hit_from_answer(&self, answer: &Answer, solver: &mut Solver) -> Option<CastHit> {
@@ -80,14 +80,14 @@ impl Scene<'_> {
                 Some(self.hit_from_contact(time, &contact, CastStatus::Contact))
             }
             Outcome::Touching { contact } => {
-                let within =
+                let is_within_target =
                     self.target_distance > 0.0 && contact.separation.upper <= self.target_distance;
-                let ending = if within {
+                let status = if is_within_target {
                     CastStatus::WithinTargetAtStart
                 } else {
                     CastStatus::Contact
                 };
-                Some(self.hit_from_contact(0.0, &contact, ending))
+                Some(self.hit_from_contact(0.0, &contact, status))
             }
             Outcome::Overlapping { overlap, .. } => Some(match overlap {
                 Overlap::Pieces(contact) => {
@@ -108,21 +108,21 @@ impl Scene<'_> {
         }
     }
 
-    /// Converts a contact at the time `after` the start to a hit, with points and normals in the bodies' frames.
-    fn hit_from_contact(&self, after: f64, contact: &Contact, ending: CastStatus) -> CastHit {
+    /// Converts a contact at a time offset from the start to a hit, with points and normals in the bodies' frames.
+    fn hit_from_contact(&self, offset: f64, contact: &Contact, status: CastStatus) -> CastHit {
         let separation = &contact.separation;
         let points = [separation.witness_a, separation.witness_b];
         let normals = [separation.normal, -separation.normal];
-        let poses = self.poses(after);
+        let poses = self.poses(offset);
         CastHit {
-            time: self.interval.cast_time_at_offset(after),
+            time: self.interval.cast_time_at_offset(offset),
             witnesses: [0, 1].map(|k| poses[k].inverse().transform_point(points[k])),
             normals: [0, 1].map(|k| poses[k].rotation().conjugate() * normals[k]),
             sub_shape_indices: [
                 self.bodies[0].sub_shape_index(contact.piece_a),
                 self.bodies[1].sub_shape_index(contact.piece_b),
             ],
-            status: ending,
+            status,
         }
     }
 
@@ -137,46 +137,46 @@ impl Scene<'_> {
         }
     }
 
-    /// Returns the hit for a limit reached at the time `after` the start, with the nearest points if they can be found.
-    fn search_hit_at_limit(&self, after: f64, solver: &mut Solver) -> CastHit {
+    /// Returns the hit for a limit reached at a time offset from the start, with the nearest points if they can be found.
+    fn search_hit_at_limit(&self, offset: f64, solver: &mut Solver) -> CastHit {
         solver.set_settings(Settings {
             budget: lesser(self.settings.budget, NEAREST_POINTS_BUDGET),
             deadline: self.settings.deadline,
             ..Settings::DEFAULT
         });
-        let poses = self.poses(after);
+        let poses = self.poses(offset);
         let [a, b] = [0, 1].map(|k| (self.bodies[k].body(), poses[k]));
         let contact = match solver.distance(a, b).map(|answer| answer.outcome) {
             Ok(Outcome::Overlapping {
                 overlap: Overlap::Pieces(contact),
                 ..
             }) => Some(contact),
-            Ok(found) => found.nearest_contact().map(|(_, contact)| contact),
+            Ok(outcome) => outcome.nearest_contact().map(|(_, contact)| contact),
             Err(_) => None,
         };
         match contact {
-            Some(contact) => self.hit_from_contact(after, &contact, CastStatus::Limit),
+            Some(contact) => self.hit_from_contact(offset, &contact, CastStatus::Limit),
             None => CastHit::hit_without_points(
-                self.interval.cast_time_at_offset(after),
+                self.interval.cast_time_at_offset(offset),
                 CastStatus::Limit,
             ),
         }
     }
 
-    fn poses(&self, after: f64) -> [Pose; 2] {
-        self.frame_motions.map(|motion| motion.pose(after))
+    fn poses(&self, offset: f64) -> [Pose; 2] {
+        self.frame_motions.map(|motion| motion.pose(offset))
     }
 }
 
 impl CastHit {
-    /// Returns a hit without nearest points: parry's placeholders stand in their place.
-    fn hit_without_points(time: f64, ending: CastStatus) -> Self {
+    /// Returns a hit without nearest points. The points and normals are the placeholders that parry uses.
+    fn hit_without_points(time: f64, status: CastStatus) -> Self {
         CastHit {
             time,
             witnesses: [DVec3::ZERO; 2],
             normals: [DVec3::X; 2],
             sub_shape_indices: [0; 2],
-            status: ending,
+            status,
         }
     }
 }

@@ -6,9 +6,9 @@ use ccd_core::rounding::UNIT_ROUNDOFF_F64;
 
 /// The default contact distance in single precision, in the scene's unit of length.
 ///
-/// It is what parry's own casts stop at, ten units of rounding of single precision, rounded down. Twice as much
-/// reports twice as early; a thousandth of it takes a few percent longer, for contacts that single precision can
-/// not tell apart.
+/// parry's own casts stop at this distance, rounded: about ten units of rounding of single precision. A tolerance that is
+/// twice as large reports contacts at twice the distance. A tolerance of a thousandth of it takes a few percent longer,
+/// but single precision cannot distinguish the results.
 #[cfg(feature = "f32")]
 pub(crate) const DEFAULT_TOLERANCE_F32: f64 = 1e-6;
 
@@ -24,9 +24,9 @@ pub(crate) const MAX_TOLERANCE_RADIUS_RATIO: f64 = 1.0 / (1 << 20) as f64;
 /// A bound on the rounding error of a point to which a pose is applied in f64, relative to the lengths of the point and
 /// of the translation.
 ///
-/// In units of `u`: the given quaternion is normalised with an error of 2 in direction, which turns by 4, and of 4.5
-/// in length, which scales by up to 9; products and sums of the rotation add 15, the translation 1. That is 29; 64
-/// are taken.
+/// In units of `u`: normalising the quaternion has an error of 2 in direction, which rotates by 4, and of 4.5 in length,
+/// which scales by up to 9. Products and sums of the rotation add 15, the translation 1. The total is 29; the bound uses
+/// 64.
 pub(crate) const POSE_ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF_F64;
 
 /// A bound on the rounding error of a voxel's corner, relative to its coordinates. The corner is one rounded product;
@@ -36,12 +36,12 @@ pub(crate) const VOXEL_ROUNDING: f64 = 4.0 * UNIT_ROUNDOFF_F64;
 /// A bound on the relative rounding error of heights above a half-space's plane. It is relative to the summands of a
 /// height, and, for the corners of the half-space's box, to the corners' distances.
 ///
-/// In units of `u`: a normal made a unit is off by 3, an axis across it by 6 and not at a right angle by 6, the other one
-/// by 10; products and sums add 8. That is 33; 64 are taken.
+/// In units of `u`: normalising the normal adds 3. The first axis across the normal adds 6, and 6 for its angle to the
+/// normal. The second axis adds 10, products and sums add 8. The total is 33; the bound uses 64.
 pub(crate) const PLANE_HEIGHT_ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF_F64;
 
-/// The maximum extent of the box that stands for a half-space, in units of the sum of the body's size and its distance
-/// at the start. At that width the box that stands for the half-space is accurate to 2e-5 of the size.
+/// The maximum extent of the box that replaces a half-space, in units of the sum of the body's size and its distance at
+/// the start. At this extent the box is accurate to 2e-5 of that sum.
 pub(crate) const MAX_HALF_SPACE_BOX_EXTENT: f64 = (1 << 26) as f64;
 
 /// A bound on the error that rounding the relative velocity adds to the bodies' relative displacement, as a fraction of

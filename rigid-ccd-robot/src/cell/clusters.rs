@@ -4,11 +4,11 @@ use crate::tuning::{MAX_COMPONENTS, MIN_PIECES_FOR_TWO_HULLS};
 use ccd_core::{Body, Piece, Solidity, connected_part_numbers};
 use rigid_ccd::glam::DVec3;
 
-/// Clusters the pieces of a body. The hulls of all clusters together cover the body.
+/// Divides the pieces of a body into clusters. The hulls of all clusters together cover the body.
 ///
-/// Each connected component is clustered by itself: a scene in one file has many components, and no hull should span
-/// the gaps between them. A component is divided into at most `max_count` clusters; a component of a solid into at
-/// most [`MAX_SOLID_CLUSTERS`]. If there are more than [`MAX_COMPONENTS`] components, nearby components share a
+/// A cluster contains pieces of one connected component. A scene in one file has many components, and no hull should
+/// span the gaps between them. A component is divided into at most `max_count` clusters, a component of a solid into
+/// at most [`MAX_SOLID_CLUSTERS`]. If there are more than [`MAX_COMPONENTS`] components, nearby components share a
 /// cluster.
 pub(super) fn connected_clusters(body: &Body, max_count: usize) -> Vec<Vec<Piece<'_>>> {
     let pieces: Vec<Piece<'_>> = body.pieces().iter().collect();
@@ -17,8 +17,8 @@ pub(super) fn connected_clusters(body: &Body, max_count: usize) -> Vec<Vec<Piece
     }
     let components = components(body);
     if components.len() > MAX_COMPONENTS {
-        let shared = halved(components, MAX_COMPONENTS, |component| {
-            component.iter().map(middle).sum::<DVec3>() / component.len() as f64
+        let shared = divided(components, MAX_COMPONENTS, |component| {
+            component.iter().map(mean_point).sum::<DVec3>() / component.len() as f64
         });
         return shared.into_iter().map(|cluster| cluster.concat()).collect();
     }
@@ -29,12 +29,12 @@ pub(super) fn connected_clusters(body: &Body, max_count: usize) -> Vec<Vec<Piece
     let is_small = |component: &Vec<Piece<'_>>| component.len() < MIN_PIECES_FOR_TWO_HULLS;
     let clusters = components.into_iter().flat_map(|component| {
         let count = if is_small(&component) { 1 } else { max_count };
-        halved(component, count, middle)
+        divided(component, count, mean_point)
     });
     clusters.collect()
 }
 
-/// The largest number of hulls that, covering the surface of a solid, certainly cover its interior, too.
+/// The largest number of hulls that are proven to cover the interior of a solid if they cover its surface.
 ///
 /// Proof for two hulls: let a point be in neither. Through the point, choose for each hull a plane that has the hull
 /// strictly on one side. A ray along the intersection line of both planes starts at the point and meets neither hull,
@@ -52,30 +52,31 @@ fn components(body: &Body) -> Vec<Vec<Piece<'_>>> {
     components
 }
 
-fn middle(piece: &Piece<'_>) -> DVec3 {
+/// Returns the mean of a piece's points.
+fn mean_point(piece: &Piece<'_>) -> DVec3 {
     piece.points.iter().sum::<DVec3>() / piece.points.len() as f64
 }
 
-/// Groups things into at most `max_count` clusters by position. Splits at the median along the longest side of the
+/// Divides items into at most `max_count` clusters by position. Splits at the median along the longest side of the
 /// bounding box, then splits each half recursively.
-fn halved<T>(
-    mut things: Vec<T>,
+fn divided<T>(
+    mut items: Vec<T>,
     max_count: usize,
-    middle: impl Fn(&T) -> DVec3 + Copy,
+    position: impl Fn(&T) -> DVec3 + Copy,
 ) -> Vec<Vec<T>> {
-    if max_count < 2 || things.len() < 2 {
-        return vec![things];
+    if max_count < 2 || items.len() < 2 {
+        return vec![items];
     }
     let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for thing in &things {
-        (min, max) = (min.min(middle(thing)), max.max(middle(thing)));
+    for item in &items {
+        (min, max) = (min.min(position(item)), max.max(position(item)));
     }
     let axis = (max - min).max_position();
-    things.sort_by(|a, b| middle(a)[axis].total_cmp(&middle(b)[axis]));
-    let second = things.split_off(things.len() / 2);
-    let mut all = halved(things, max_count / 2, middle);
-    all.extend(halved(second, max_count / 2, middle));
-    all
+    items.sort_by(|a, b| position(a)[axis].total_cmp(&position(b)[axis]));
+    let second_half = items.split_off(items.len() / 2);
+    let mut clusters = divided(items, max_count / 2, position);
+    clusters.extend(divided(second_half, max_count / 2, position));
+    clusters
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
-//! Selects the pairs of bodies that are checked for collision, and keeps the contacts that are allowed.
+//! Selects the pairs of bodies that are checked for collision, and stores the allowed contacts.
 
 use super::{Cell, Item};
 use crate::error::{NothingCompared, RobotError};
+use crate::pairs::ordered_pair;
 use crate::skip_reason::SkipReason;
 use std::collections::BTreeSet;
 
@@ -14,11 +15,12 @@ impl AllowedPairs {
         !self.0.is_empty() && self.0.contains(&ordered_pair(pair))
     }
 
-    /// Replaces each body index by the index that `number` returns. Removes pairs of a body for which it returns `None`.
-    pub(super) fn reindex(&mut self, index: impl Fn(usize) -> Option<usize>) {
+    /// Replaces each body index by the index that `new_index` returns for it. Removes the pairs of a body for which it
+    /// returns `None`.
+    pub(super) fn reindex(&mut self, new_index: impl Fn(usize) -> Option<usize>) {
         let pairs = std::mem::take(&mut self.0).into_iter();
         self.0 = pairs
-            .filter_map(|[a, b]| Some([index(a)?, index(b)?]))
+            .filter_map(|[a, b]| Some([new_index(a)?, new_index(b)?]))
             .collect();
     }
 }
@@ -26,7 +28,8 @@ impl AllowedPairs {
 impl Cell {
     /// Allows two items to touch: their pair is no longer checked.
     ///
-    /// [`Cell::forbid_contact`] and [`Cell::set_clearance`] check the pair again. The last of these calls holds.
+    /// [`Cell::forbid_contact`] and [`Cell::set_clearance`] check the pair again. Only the last of these calls has an
+    /// effect.
     /// Removing an item removes its allowed contacts. A clearance of the pair stays stored, and applies again after
     /// [`Cell::forbid_contact`].
     ///
@@ -75,8 +78,8 @@ impl Cell {
         Ok(())
     }
 
-    /// Checks two items again that were allowed to touch. A pair of links that was unchecked for another reason, such
-    /// as adjacent links, is checked from then on.
+    /// Checks a pair again that was allowed to touch. A pair of links that was unchecked for another reason, for
+    /// example because they are adjacent, is also checked from then on.
     ///
     /// # Errors
     /// The same as [`Cell::allow_contact`].
@@ -109,7 +112,7 @@ impl Cell {
     /// Checks that at least one pair of bodies is checked. Otherwise every path would count as free.
     ///
     /// # Errors
-    /// [`NothingCompared`], with a summary of what is left out.
+    /// [`NothingCompared`], with a summary of the unchecked pairs.
     pub fn check_any_compared(&self) -> Result<(), NothingCompared> {
         match self.compared_pairs(0.0).next() {
             Some(_) => Ok(()),
@@ -119,12 +122,12 @@ impl Cell {
         }
     }
 
-    /// Returns the pairs of bodies that are checked, by their indices in [`Cell::carried_bodies`]. With each pair
-    /// comes the distance at which it counts as touching if the settings have this margin.
+    /// Returns the pairs of bodies that are checked, by their indices in [`Cell::carried_bodies`]. Each pair has the
+    /// distance at which it counts as touching, for settings with this margin.
     pub fn compared_pairs(&self, margin: f64) -> impl Iterator<Item = ([usize; 2], f64)> {
         let pairs = (0..self.bodies.len()).flat_map(|a| (0..a).map(move |b| [b, a]));
-        let compared = pairs.filter(|&[a, b]| self.is_compared(a, b));
-        compared.map(move |pair| (pair, self.margin(pair, margin)))
+        let checked_pairs = pairs.filter(|&[a, b]| self.is_compared(a, b));
+        checked_pairs.map(move |pair| (pair, self.margin(pair, margin)))
     }
 
     /// Iterates over the checked pairs of the robot's own parts.
@@ -190,7 +193,7 @@ impl Cell {
         ]))
     }
 
-    /// Returns the pairs of bodies of two items. Pairs of links may be unchecked ones.
+    /// Returns the pairs of bodies of two items. The items may be two links whose pair is not checked.
     ///
     /// # Errors
     /// If an item does not exist, or if no pair of their bodies could ever be checked.
@@ -198,21 +201,25 @@ impl Cell {
         for item in pair {
             self.check_item(item)?;
         }
-        let never = || {
+        let never_compared = || {
             let [a, b] = pair.map(|item| item.name().to_owned());
             RobotError::NeverCompared { a, b }
         };
         if pair[0] == pair[1] {
-            return Err(never());
+            return Err(never_compared());
         }
-        let [one, other] = pair.map(|item| self.bodies_of(item));
-        let of_one = |&a: &usize| other.iter().map(move |&b| ordered_pair([a, b]));
-        let all: Vec<[usize; 2]> = one.iter().flat_map(of_one).collect();
+        let [bodies_a, bodies_b] = pair.map(|item| self.bodies_of(item));
+        let pairs_with = |&a: &usize| bodies_b.iter().map(move |&b| ordered_pair([a, b]));
+        let all: Vec<[usize; 2]> = bodies_a.iter().flat_map(pairs_with).collect();
         let is_possible = match self.checked_links_of(pair)? {
             Some([a, b]) => !all.is_empty() && !self.robot.are_rigidly_connected(a, b),
             None => all.iter().any(|&[a, b]| self.are_comparable(a, b)),
         };
-        if is_possible { Ok(all) } else { Err(never()) }
+        if is_possible {
+            Ok(all)
+        } else {
+            Err(never_compared())
+        }
     }
 
     /// Checks that an item exists in the cell.
@@ -231,10 +238,6 @@ impl Cell {
         all.filter(|&body| self.item_of_body(body) == item)
             .collect()
     }
-}
-
-pub(super) fn ordered_pair([a, b]: [usize; 2]) -> [usize; 2] {
-    if a < b { [a, b] } else { [b, a] }
 }
 
 #[cfg(test)]

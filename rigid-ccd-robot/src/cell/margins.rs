@@ -1,14 +1,14 @@
 //! The distances at which pairs of bodies count as touching.
 
-use super::compared::ordered_pair;
 use super::{Cell, Item};
 use crate::error::RobotError;
+use crate::pairs::ordered_pair;
 use ccd_core::order::greater;
 use rigid_ccd::InputError;
 use std::collections::BTreeMap;
 
-/// Paddings and clearances: distances for some bodies and pairs, in addition to or instead of the margin of the
-/// settings.
+/// The paddings of links, which are added to the margin of the settings, and the clearances of pairs, which replace
+/// it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Margins {
     /// For each body, its padding: a distance that is added to the margin against obstacles. 0 for obstacles.
@@ -46,9 +46,9 @@ impl Cell {
         }
         check_distance("clearance", distance)?;
         self.forbid_contact(pair)?;
-        let [one, other] = pair.map(|item| self.bodies_of(item));
-        for &a in &one {
-            for &b in &other {
+        let [bodies_a, bodies_b] = pair.map(|item| self.bodies_of(item));
+        for &a in &bodies_a {
+            for &b in &bodies_b {
                 self.margins
                     .clearance_per_pair
                     .insert(ordered_pair([a, b]), distance);
@@ -57,18 +57,19 @@ impl Cell {
         Ok(())
     }
 
-    /// Removes all paddings and clearances. All pairs then have the margin of the settings, and pairs that a clearance
-    /// included stay checked. Returns whether there was a padding or clearance.
+    /// Removes all paddings and clearances, so that all pairs have the margin of the settings. A pair that is checked
+    /// because of a clearance stays checked. Returns whether there was a padding or clearance.
     pub fn remove_paddings_and_clearances(&mut self) -> bool {
         let Margins {
             padding_per_body: paddings,
             clearance_per_pair: clearances,
         } = &mut self.margins;
         // Written so that NaN counts.
-        let had_any = !clearances.is_empty() || paddings.iter().any(|&own| own != 0.0);
+        let had_paddings_or_clearances =
+            !clearances.is_empty() || paddings.iter().any(|&padding| padding != 0.0);
         clearances.clear();
         paddings.fill(0.0);
-        had_any
+        had_paddings_or_clearances
     }
 
     /// Returns the distance at which a pair counts as touching, given the margin of the settings.
@@ -111,16 +112,16 @@ impl Margins {
         self.reindex(|body| Some(if body < index { body } else { body + 1 }));
     }
 
-    /// Removes a body. `others` maps the old indices of the other bodies to the new ones.
-    pub(super) fn remove_body(&mut self, index: usize, others: impl Fn(usize) -> Option<usize>) {
+    /// Removes a body. `new_index` maps the old index of another body to its new one.
+    pub(super) fn remove_body(&mut self, index: usize, new_index: impl Fn(usize) -> Option<usize>) {
         self.padding_per_body.remove(index);
-        self.reindex(others);
+        self.reindex(new_index);
     }
 
-    fn reindex(&mut self, index: impl Fn(usize) -> Option<usize>) {
+    fn reindex(&mut self, new_index: impl Fn(usize) -> Option<usize>) {
         let clearances = std::mem::take(&mut self.clearance_per_pair).into_iter();
-        let reindexed =
-            clearances.filter_map(|([a, b], clearance)| Some(([index(a)?, index(b)?], clearance)));
+        let reindexed = clearances
+            .filter_map(|([a, b], clearance)| Some(([new_index(a)?, new_index(b)?], clearance)));
         self.clearance_per_pair = reindexed.collect();
     }
 }

@@ -1,4 +1,4 @@
-//! Bodies in a cell, and the convex hulls that enclose them in the frames that carry them.
+//! Bodies in a cell, and the convex hulls that enclose them, in the frames to which they are fixed.
 
 mod plane;
 
@@ -12,7 +12,7 @@ use rigid_ccd::oracle::Frame;
 use rigid_ccd::{Pose, Remark};
 use std::sync::Arc;
 
-/// A body of a cell in its frame: the frame of the moving joint that carries its link, or the base for an obstacle.
+/// A body of a cell in the frame to which it is fixed: the frame that a joint moves, or the base for a static body.
 #[derive(Clone, Debug)]
 pub(crate) struct PlacedBody {
     pub(crate) body: Arc<Body>,
@@ -22,13 +22,13 @@ pub(crate) struct PlacedBody {
     pub(crate) frame: usize,
     /// The side lengths of the bounding box along the body's own axes.
     pub(super) sides: [f64; 3],
-    /// For a plane, the distance from the base up to which its box acts as a half-space; `None` for other bodies.
+    /// For a plane, the distance from the base within which its box acts as a half-space; `None` for other bodies.
     pub(super) plane_reach: Option<f64>,
-    /// Convex hulls whose union encloses the body, in the body's coordinates.
+    /// Convex hulls whose union contains the body, in the body's frame.
     hulls: Vec<Arc<Hull>>,
 }
 
-/// A convex hull around some pieces of a body, in the body's coordinates.
+/// A convex hull around some pieces of a body, in the body's frame.
 #[derive(Debug)]
 pub(crate) struct Hull {
     corners: Vec<DVec3>,
@@ -37,7 +37,7 @@ pub(crate) struct Hull {
     rounding_radius: f64,
 }
 
-/// A convex hull around some pieces of a body, in the frame that carries the body.
+/// A convex hull around some pieces of a body, in the frame to which the body is fixed.
 #[derive(Clone, Debug)]
 pub(crate) struct HullPart {
     /// The index of the body in the cell.
@@ -46,8 +46,8 @@ pub(crate) struct HullPart {
     pub(crate) frame: usize,
     /// The corners of the hull in the frame.
     points: Vec<DVec3>,
-    /// The hull in the body's coordinates, where its extreme corners are searched, and the rotation from there to the
-    /// frame.
+    /// The hull in the body's frame, in which support points are searched, and the rotation from there to the frame of
+    /// this part.
     hull: Arc<Hull>,
     rotation: DMat3,
     /// The radius of the ball with which the hull is rounded (Minkowski sum).
@@ -63,8 +63,8 @@ pub(crate) struct HullPart {
     pub(crate) half_extents: DVec3,
     /// The radius of the bounding ball of the rounded hull, about `center`.
     pub(crate) ball_radius: f64,
-    /// An upper bound of the numbers that the corners were computed from, for rounding: the length of the body's
-    /// position plus its largest coordinate. It may be far larger than the corners' distance from the frame's origin.
+    /// An upper bound of the numbers from which the corners were computed, for bounds of rounding errors: the length of
+    /// the body's position plus its largest coordinate. The corners may be much nearer to the frame's origin.
     pub(crate) coordinate_bound: f64,
 }
 
@@ -127,7 +127,7 @@ impl Hull {
     #[inline(always)]
     fn extremal_corner(&self, direction: DVec3) -> u32 {
         match &self.support_map {
-            // Called directly, so that it is inlined where vector instructions are chosen.
+            // Called directly, so that it is inlined into functions that are compiled for vector instructions.
             SupportMap::Scan(scan) => scan.extremal_point(direction),
             other => other.extremal_point(direction),
         }
@@ -168,9 +168,9 @@ impl HullPart {
             (min, max) = (min.min(point), max.max(point));
         }
         let lengths = hull.corners.iter().map(|corner| corner.length());
-        let largest = lengths.fold(0.0, greater);
+        let largest_length = lengths.fold(0.0, greater);
         let center = 0.5 * (min + max);
-        let farthest = points
+        let core_radius = points
             .iter()
             .map(|point| point.distance(center))
             .fold(0.0, greater);
@@ -186,8 +186,8 @@ impl HullPart {
             excess_over_shape: placed.body.excess(),
             center,
             half_extents: 0.5 * (max - min) + DVec3::splat(radius),
-            ball_radius: farthest + radius,
-            coordinate_bound: placed.pose.translation().length() + largest + radius,
+            ball_radius: core_radius + radius,
+            coordinate_bound: placed.pose.translation().length() + largest_length + radius,
         }
     }
 
@@ -199,9 +199,9 @@ impl HullPart {
     /// Returns the corner that is farthest along a direction of the frame, with its index.
     #[inline(always)]
     pub(crate) fn extremal_corner(&self, direction: DVec3) -> (u32, DVec3) {
-        let in_body = self.rotation.transpose() * direction;
-        let number = self.hull.extremal_corner(in_body);
-        (number, self.points[number as usize])
+        let direction_in_body = self.rotation.transpose() * direction;
+        let index = self.hull.extremal_corner(direction_in_body);
+        (index, self.points[index as usize])
     }
 
     /// Returns the half extents of the bounding box along the base's axes, for a frame at `frame`.

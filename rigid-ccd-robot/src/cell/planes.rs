@@ -1,10 +1,10 @@
 //! Planes: half-spaces, each represented by a large box.
 //!
-//! A body above the plane is as far from the half-space as from a box directly below the body. So a sufficiently wide
-//! and deep box gives the same distances, as long as all moving bodies stay within its reach.
+//! A body above the plane has the same distance from the half-space as from a box below the plane, if the box is wide
+//! and deep enough. The size of the box sets how far from the base moving bodies may get.
 
+use super::Cell;
 use super::part::PlacedBody;
-use super::{Cell, RobotBodyPlacement};
 use crate::cell::rounding::largest_arm;
 use crate::error::{PathError, RobotError};
 use crate::kinematics::magnitude::Magnitude;
@@ -15,18 +15,18 @@ use rigid_ccd::Pose;
 use rigid_ccd::glam::DVec3;
 use std::sync::Arc;
 
-/// If joints slide without limits, planes reach this many times the length of the stretched arm, or this far if that
-/// is more.
+/// The reach of planes if prismatic joints have no limits, as a multiple of the length of the stretched arm. This is
+/// also the smallest reach.
 const FREE_TRAVEL: f64 = 1024.0;
 
 impl Cell {
     /// Adds an obstacle that is a half-space: all points below the plane `z = 0` of a frame at `pose`, in the frame of
     /// the robot's base.
     ///
-    /// The half-space is represented by a finite box. Answers are those for the infinite half-space: a path on which a
-    /// moving body may leave the range in which both agree is refused with [`PathError::BeyondPlane`]. Joints within
-    /// finite limits never leave it. If a joint slides without limits, the range is at least 1024 times the length of
-    /// the stretched arm, and at least 1024.
+    /// A finite box represents the half-space. Answers are the same as for the infinite half-space: a path on which a
+    /// moving body may get too far from the base is refused with [`PathError::BeyondPlane`]. With finite joint limits
+    /// this never happens. If a prismatic joint has no limits, bodies may get at least as far as 1024 times the length
+    /// of the stretched arm, and at least 1024.
     ///
     /// # Errors
     /// [`RobotError::NameTaken`], [`RobotError::TooFar`].
@@ -62,22 +62,12 @@ impl Cell {
         Ok(())
     }
 
-    /// Adds the plane of a static link.
-    pub(super) fn add_link_plane(&mut self, placement: RobotBodyPlacement) {
-        let (_, link_pose) = self.kinematics.link_frame_and_pose(placement.link);
-        let pose = link_pose.compose(&placement.pose_in_link);
-        let placed = PlacedBody::for_plane(pose, self.plane_reach());
-        let index = self.robot_body_placements.len();
-        self.robot_body_placements.push(placement);
-        self.robot_part_count += self.insert(index, placed);
-    }
-
     /// Returns whether the body with this index in [`Cell::carried_bodies`] is the box of a plane.
     pub fn is_plane(&self, body: usize) -> bool {
         self.bodies[body].plane_reach.is_some()
     }
 
-    /// Resizes the boxes of all planes to the present reach of the robot and its attached bodies.
+    /// Resizes the boxes of all planes to the current reach of the robot and its attached bodies.
     pub(super) fn fit_planes(&mut self) {
         let reach = self.plane_reach();
         for index in 0..self.bodies.len() {
@@ -89,7 +79,7 @@ impl Cell {
         }
     }
 
-    /// Checks that the joints keep all moving bodies within the range of the planes.
+    /// Checks that all moving bodies stay within the distance from the base for which the planes' boxes are valid.
     pub(crate) fn check_plane_reach(
         &self,
         magnitudes: impl Iterator<Item = Magnitude>,
@@ -107,14 +97,14 @@ impl Cell {
         }
     }
 
-    /// Returns how far from the base planes must reach: twice as far as any moving body gets.
-    fn plane_reach(&self) -> f64 {
+    /// Returns the distance from the base for which planes must be valid: twice the largest distance of a moving body.
+    pub(super) fn plane_reach(&self) -> f64 {
         let limits = self.robot.limits();
         let farthest = limits.map(|[low, high]| greater(low.abs(), high.abs()));
         let farthest: Vec<f64> = farthest.collect();
-        let most = FREE_TRAVEL * greater(1.0, self.max_reach(std::iter::empty()));
-        let within_limits = self.max_reach(self.kinematics.magnitudes(&farthest));
-        lesser(2.0 * within_limits, most)
+        let reach_without_limits = FREE_TRAVEL * greater(1.0, self.max_reach(std::iter::empty()));
+        let reach_within_limits = self.max_reach(self.kinematics.magnitudes(&farthest));
+        lesser(2.0 * reach_within_limits, reach_without_limits)
     }
 
     /// Returns an upper bound of the distance from the base of any point of a moving body.
@@ -128,32 +118,35 @@ impl PlacedBody {
     /// `reach` from the base.
     pub(super) fn for_plane(pose: Pose, reach: f64) -> Self {
         let base = pose.inverse().transform_point(DVec3::ZERO);
-        let most = 0.125 * MAX_COORDINATE;
+        let max_reach = 0.125 * MAX_COORDINATE;
         // If the plane is too far away, its box does not reach the base, and all paths are refused.
-        let middle = base.clamp(DVec3::splat(-4.0 * most), DVec3::splat(4.0 * most));
-        let reach = lesser(reach, most);
+        let center = base.clamp(
+            DVec3::splat(-4.0 * max_reach),
+            DVec3::splat(4.0 * max_reach),
+        );
+        let reach = lesser(reach, max_reach);
         // The factor of two leaves room for rounding.
         let half_width = 2.0 * reach;
-        let depth = half_width + greater(0.0, -middle.z);
+        let depth = half_width + greater(0.0, -center.z);
         let mut placed = PlacedBody::new(
-            Arc::new(box_below_plane(middle, half_width, depth)),
+            Arc::new(box_below_plane(center, half_width, depth)),
             pose,
             0,
             1,
         );
-        placed.plane_reach = Some(reach - middle.distance(base));
+        placed.plane_reach = Some(reach - center.distance(base));
         placed
     }
 }
 
-/// Returns a box directly below `z = 0`. Its top is a square around the projection of `middle`.
-fn box_below_plane(middle: DVec3, half_width: f64, depth: f64) -> Body {
+/// Returns a box directly below `z = 0`. Its top is a square around the projection of `center`.
+fn box_below_plane(center: DVec3, half_width: f64, depth: f64) -> Body {
     // Bit 0, 1, 2 of `k` selects the upper end of x, y, z.
     let corner = |k: u32| {
         let sign = |bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
         let z = if k >> 2 & 1 == 1 { 0.0 } else { -depth };
-        let across = half_width * DVec3::new(sign(0), sign(1), 0.0);
-        (middle + across).with_z(z)
+        let offset = half_width * DVec3::new(sign(0), sign(1), 0.0);
+        (center + offset).with_z(z)
     };
     let faces: [[u32; 4]; 6] = [
         [0, 4, 6, 2],

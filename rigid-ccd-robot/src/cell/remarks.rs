@@ -7,18 +7,20 @@ use rigid_ccd::text::RoundedToFourDigits;
 use rigid_ccd::{Body, Remark};
 
 impl Cell {
-    /// Lists the remarks on the cell, warnings first. They concern the robot's files, sizes that may be in another
-    /// unit, such as millimetres instead of metres, and pairs and items that are not checked.
+    /// Returns the remarks on the cell, warnings first. They are about the robot's files, about sizes that may be in
+    /// another unit, such as millimetres instead of metres, and about pairs and items that are not checked.
     ///
     /// # Complexity
     /// Linear in the points of the robot's bodies, quadratic in the number of its links.
     pub fn remarks(&self) -> Vec<CellRemark> {
         let mut remarks = self.pairs.remarks(&self.robot);
-        let sized = (0..self.bodies.len()).filter(|&body| !self.is_plane(body));
-        remarks.extend(sized.filter_map(|body| match self.item_of_body(body) {
-            Item::Link(_) => None,
-            item => self.size_scale.remark(item.name(), self.bodies[body].sides),
-        }));
+        let bodies_with_size = (0..self.bodies.len()).filter(|&body| !self.is_plane(body));
+        remarks.extend(
+            bodies_with_size.filter_map(|body| match self.item_of_body(body) {
+                Item::Link(_) => None,
+                item => self.size_scale.remark(item.name(), self.bodies[body].sides),
+            }),
+        );
         remarks.extend(self.remark_on_static_items());
         let allowed = self.allowed_contacts().into_iter();
         let pairs = allowed.map(|pair| pair.map(|item| item.name().to_owned()));
@@ -29,8 +31,8 @@ impl Cell {
         CellRemark::warnings_first(remarks)
     }
 
-    /// Returns a remark if the robot has static bodies and the cell has obstacles: these are not checked against each
-    /// other.
+    /// Returns a remark if the robot has static bodies and the cell has obstacles. Static bodies and obstacles are not
+    /// checked against each other.
     fn remark_on_static_items(&self) -> Option<CellRemark> {
         let mut items: Vec<String> = Vec::new();
         for body in (0..self.robot_body_count()).filter(|&body| !self.moves(body)) {
@@ -40,8 +42,8 @@ impl Cell {
                 items.push(name.to_owned());
             }
         }
-        let is_apart = !items.is_empty() && self.obstacle_names().len() > 0;
-        is_apart.then_some(CellRemark::StaticItemsUnchecked { items })
+        let has_unchecked_pairs = !items.is_empty() && self.obstacle_names().len() > 0;
+        has_unchecked_pairs.then_some(CellRemark::StaticItemsUnchecked { items })
     }
 
     /// Returns a remark if a body has an implausible size next to the robot. Call it before the body becomes an
@@ -67,8 +69,8 @@ impl Cell {
         Some(CellRemark::on(self.item_of_body(body).name(), remark))
     }
 
-    /// Returns the size of each link with bodies, attached body and obstacle: the longest bounding-box side of its
-    /// largest body. Planes are left out.
+    /// Returns the size of each attached body, of each obstacle and of each link with bodies: the longest bounding-box
+    /// side of its largest body. Planes have no size.
     pub fn item_sizes(&self) -> impl Iterator<Item = (Item<'_>, f64)> {
         let sizes = self.sizes_by_body();
         sizes.map(|(body, size)| (self.item_of_body(body), size))
@@ -78,16 +80,16 @@ impl Cell {
     pub fn sizes_text(&self) -> String {
         let robot = RoundedToFourDigits(self.robot.size().unwrap_or(0.0));
         let others = self.item_sizes().filter_map(|(item, size)| {
-            let is_other = !matches!(item, Item::Link(_));
-            is_other.then(|| format!(", {} {}", item.name(), RoundedToFourDigits(size)))
+            let is_no_link = !matches!(item, Item::Link(_));
+            is_no_link.then(|| format!(", {} {}", item.name(), RoundedToFourDigits(size)))
         });
         format!("robot {robot}{}", others.collect::<String>())
     }
 
     /// Returns the size of each item, with the index of its last body.
     fn sizes_by_body(&self) -> impl Iterator<Item = (usize, f64)> {
-        let sized = (0..self.bodies.len()).filter(|&body| !self.is_plane(body));
-        let mut sizes = sized
+        let bodies_with_size = (0..self.bodies.len()).filter(|&body| !self.is_plane(body));
+        let mut sizes = bodies_with_size
             .map(|body| {
                 let sides = self.bodies[body].sides;
                 (body, sides.into_iter().fold(0.0, greater))

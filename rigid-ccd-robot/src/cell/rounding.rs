@@ -8,20 +8,21 @@ use ccd_core::order::greater;
 /// The unit roundoff of f64: half the distance from 1 to the next number.
 pub(crate) const U: f64 = 0.5 * f64::EPSILON;
 
-/// The error that each joint adds to a rotation matrix, in units of `U`. The product of two rotations adds at most 9:
-/// each entry is rounded by at most 3. The joint's own rotation is a sum of three matrices, each the product of two,
-/// with entries rounded by at most 8: at most 24. The quaternion that it is made from adds 8, sine and cosine add 2.
-/// The rotation of the direction in which a hull's corners are searched is included as well. The sum is below 64.
+/// The error that each joint adds to a rotation matrix, in units of `U`. The product of two rotations adds at most 9,
+/// because each entry is rounded by at most 3. The rotation of the joint is a sum of three matrices, each the product
+/// of two. Its entries are rounded by at most 8, which adds at most 24. The quaternion of the joint's origin adds 8,
+/// sine and cosine add 2. A support point is searched along a rotated direction, whose error is included as well. The
+/// sum is below 64.
 const ROTATION_ERROR_PER_JOINT: f64 = 64.0;
 
 /// The rounding error of an interpolated joint position, in units of `U` times its [`Magnitude::rounding`].
-/// Interpolation rounds a difference, a product and a sum. The difference from the position at an interval's midpoint
-/// has the errors of both positions. The magnitude accounts for the multiplier and the offset of a mimic joint, and
-/// for the degree of a polynomial.
+/// Interpolation rounds a difference, a product and a sum. A deviation from the position at an interval's midpoint has
+/// the errors of two positions. The magnitude includes the multiplier and the offset of a mimic joint, and the degree
+/// of a polynomial.
 const POSITION_ERROR_ULPS: f64 = 16.0;
 
-/// An answer may miss the tolerance by this fraction of it without reporting a larger tolerance. With usual tolerances
-/// and near the base, rounding is below a millionth of the tolerance.
+/// An answer does not report a larger tolerance than the settings if it exceeds theirs by at most this fraction. With
+/// usual tolerances and near the base, rounding errors are below a millionth of the tolerance.
 pub(crate) const UNREPORTED_TOLERANCE_SHARE: f64 = 1e-3;
 
 /// Error bounds of points and directions that are transformed by link frames.
@@ -59,29 +60,35 @@ pub(crate) fn pose_rounding(
     }
     let rotation = ROTATION_ERROR_PER_JOINT * (kinematics.total_joint_count + 2) as f64
         + POSITION_ERROR_ULPS * angles;
-    let moving = (rotation + POSITION_ERROR_ULPS) * largest_arm(kinematics, parts, magnitudes);
+    let error_of_moving =
+        (rotation + POSITION_ERROR_ULPS) * largest_arm(kinematics, parts, magnitudes);
     // No joint rotates a static part.
-    let fixed = parts.iter().filter(|part| part.frame == 0);
-    let fixed = fixed.map(|part| part.coordinate_bound);
-    let fixed = (2.0 * ROTATION_ERROR_PER_JOINT + POSITION_ERROR_ULPS) * fixed.fold(0.0, greater);
+    let static_parts = parts.iter().filter(|part| part.frame == 0);
+    let coordinates = static_parts.map(|part| part.coordinate_bound);
+    let error_of_static =
+        (2.0 * ROTATION_ERROR_PER_JOINT + POSITION_ERROR_ULPS) * coordinates.fold(0.0, greater);
     PoseRounding {
-        of_points: U * greater(moving, fixed) + U * POSITION_ERROR_ULPS * translations,
+        of_points: U * greater(error_of_moving, error_of_static)
+            + U * POSITION_ERROR_ULPS * translations,
         of_directions: U * (rotation + POSITION_ERROR_ULPS),
     }
 }
 
-/// Returns an upper bound of the distance of any moving part's point from the base and from any joint axis. Prismatic
-/// joints without a magnitude count as being at 0.
+/// Returns an upper bound of the distance from any point of a moving part to the base and to any joint axis. Prismatic
+/// joints without a magnitude are assumed to be at 0.
 pub(crate) fn largest_arm(
     kinematics: &Kinematics,
     parts: &[HullPart],
     magnitudes: impl Iterator<Item = Magnitude>,
 ) -> f64 {
     let joints = kinematics.joints().iter().zip(magnitudes);
-    let translations = joints.filter(|(joint, _)| joint.is_prismatic);
-    let arms = translations.fold(kinematics.arm_length_sum, |arms, (_, magnitude)| {
-        arms + magnitude.position
+    let prismatic = joints.filter(|(joint, _)| joint.is_prismatic);
+    let chain_length = prismatic.fold(kinematics.arm_length_sum, |length, (_, magnitude)| {
+        length + magnitude.position
     });
-    let moving = parts.iter().filter(|part| part.frame > 0);
-    arms + moving.map(|part| part.coordinate_bound).fold(0.0, greater)
+    let moving_parts = parts.iter().filter(|part| part.frame > 0);
+    chain_length
+        + moving_parts
+            .map(|part| part.coordinate_bound)
+            .fold(0.0, greater)
 }

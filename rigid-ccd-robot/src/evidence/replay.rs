@@ -37,9 +37,9 @@ pub enum EvidenceError {
     /// A body differs from the recorded one.
     #[error("{0}")]
     OtherBody(String),
-    /// Other pairs are checked than were recorded, or they count as touching at other distances.
+    /// The checked pairs, or the distances at which they count as touching, differ from the recorded ones.
     #[error(
-        "other pairs are compared than were recorded, or they count as touching at other distances"
+        "the compared pairs, or the distances at which they count as touching, differ from the recorded ones"
     )]
     OtherPairs,
     /// The question is invalid for this cell.
@@ -66,9 +66,9 @@ pub enum Verdict {
     /// The new answer differs, because the record ended at a limit or came from another machine or version. Nothing
     /// touches before the point up to which the record calls the path free.
     Holds,
-    /// A pair touches before that point.
+    /// A pair touches before the point up to which the record calls the path free.
     Refuted {
-        /// The point at which it touches.
+        /// The point at which the pair touches.
         at: PathPoint,
     },
     /// The replay reached a limit before it could confirm or refute the record.
@@ -76,7 +76,7 @@ pub enum Verdict {
 }
 
 impl Evidence {
-    /// Asks the recorded question again, without a deadline. The cell must be the recorded one.
+    /// Asks the recorded question again, without a deadline, for a cell that equals the recorded one.
     ///
     /// # Guarantee
     /// [`Verdict::SameAnswer`] and [`Verdict::Holds`] prove again that nothing touches before the point up to which
@@ -161,22 +161,25 @@ impl Evidence {
 fn difference(body: &RecordedBody, recorded: &RecordedBody) -> Option<String> {
     let name = &recorded.item;
     if body.item != *name {
-        return Some(format!("`{}` is where `{name}` was recorded", body.item));
+        return Some(format!(
+            "the record has `{name}` instead of `{}`",
+            body.item
+        ));
     }
     if body.sha256 != recorded.sha256 {
-        return Some(format!("`{name}` is another body than was recorded"));
+        return Some(format!("`{name}` is not the recorded body"));
     }
     let near =
         |a: &[f64], b: &[f64]| (a.iter().zip(b)).all(|(a, b)| (a - b).abs() <= POSE_TOLERANCE);
     // A quaternion and its negative are the same rotation.
-    let turned = recorded.orientation.map(|q| -q);
-    let same_turn =
-        near(&body.orientation, &recorded.orientation) || near(&body.orientation, &turned);
-    if near(&body.position, &recorded.position) && same_turn {
+    let negative = recorded.orientation.map(|q| -q);
+    let same_orientation =
+        near(&body.orientation, &recorded.orientation) || near(&body.orientation, &negative);
+    if near(&body.position, &recorded.position) && same_orientation {
         None
     } else {
         Some(format!(
-            "`{name}` is elsewhere at the start of the path than was recorded"
+            "`{name}` is elsewhere at the start of the path: its pose differs from the recorded one"
         ))
     }
 }

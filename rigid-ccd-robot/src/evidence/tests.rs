@@ -149,7 +149,9 @@ fn another_cell_is_refused_with_what_differs() {
         .unwrap();
     let error = record.replay(&other).unwrap_err();
     assert!(
-        error.to_string().contains("`ball` is another body"),
+        error
+            .to_string()
+            .contains("`ball` is not the recorded body"),
         "{error}"
     );
     let error = refused(|cell| cell.set_padding("upper", 0.1).unwrap());

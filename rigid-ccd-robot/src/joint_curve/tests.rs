@@ -88,7 +88,10 @@ fn wrong_curves_are_refused() {
     let two = [line(0.0, 1.0), line(1.0, 0.0)];
     assert!(JointCurve::from_polynomials(&[0.0, 1.0, 2.0], &two).is_ok());
     assert_eq!(refused(&[], &[]), "a curve needs at least two times, not 0");
-    assert_eq!(refused(&[0.0, 1.0], &two), "2 segments instead of 1, at 0");
+    assert_eq!(
+        refused(&[0.0, 1.0], &two),
+        "2 segments instead of 1, at index 0"
+    );
     for wrong in [
         [0.0, 1.0, 1.0],
         [0.0, f64::NAN, 1.0],
@@ -115,7 +118,7 @@ fn wrong_curves_are_refused() {
     let uneven = [line(0.0, 1.0), vec![vec![1.0], vec![0.0]]];
     assert_eq!(
         refused(&[0.0, 1.0, 2.0], &uneven),
-        "2 joints instead of 1, at 1"
+        "2 joints instead of 1, at index 1"
     );
 }
 
@@ -177,7 +180,7 @@ fn constants_are_curves_and_times_are_rounded_down() {
     let constant = JointCurve::from_polynomials(&[0.0, 1.0], &[vec![vec![0.5]]]).unwrap();
     assert_eq!(constant.positions(0.3), [0.5]);
     let none = JointCurve::from_polynomials(&[0.0, 1.0], &[vec![vec![]]]).unwrap_err();
-    assert_eq!(none.to_string(), "0 coefficients instead of 1, at 0");
+    assert_eq!(none.to_string(), "0 coefficients instead of 1, at index 0");
     let start = 1e15;
     let curve = JointCurve::from_polynomials(&[start, start + 2.0], &[vec![vec![0.0, 1.0]]]);
     let curve = curve.unwrap();

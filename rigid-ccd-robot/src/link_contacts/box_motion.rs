@@ -1,18 +1,18 @@
 //! Bounds how far two links move relative to each other within a box of joint positions.
 //!
-//! Let `k` joints lie between two parts A and B. In the frame of the link after the first `s` joints, these joints
-//! move A and the other joints move B. Every `s` from 0 to `k` gives a valid bound, and the best is used. If a joint
-//! near A turns, A moves less than B, which is far from the axis.
+//! Let `k` joints lie between two parts A and B. Choose a reference frame: the link after the first `s` joints from A.
+//! Relative to it, the first `s` joints move A and the other joints move B. Every `s` from 0 to `k` gives a valid bound,
+//! and the smallest one is used. For example, a revolute joint near A moves A less than B, which is far from the axis.
 //!
 //! There are two bounds. Let `δ` be the largest deviation of a joint's position from the center of the box:
 //!
-//! - The *displacement* of a part is at most the sum of the displacements that the joints cause one by one, from the
-//!   position at the center: a chord about a revolute axis, or a distance along a prismatic one.
-//! - Along a *fixed direction* `n`, a point `x` moves by `Σ δ |n × ω · (x - o)|` to first order, for joint axes with
-//!   directions `ω` through points `o`. The remainder is at most half of `Σ Σ δ δ |n · ∂²x|`. The second derivative by
-//!   joint `i`, and by joint `j` that is nearer to the part or the same, is `ω_i × (ω_j × (x - o_j))`. Along `n` it is
-//!   at most `|n × ω_i|` times the distance of `x` from the axis of `j`. The displacements bound both factors over the
-//!   box.
+//! - The *displacement* of a part from its pose at the center of the box is at most the sum of the displacements by each
+//!   joint: a chord about a revolute axis, or a distance along a prismatic axis.
+//! - Along a *fixed direction* `n`, a point `x` moves by at most `Σ δ |n × ω · (x - o)|` to first order, for joint axes
+//!   with directions `ω` through points `o`. The remainder is at most half of `Σ Σ δ δ |n · ∂²x|`. Let joint `j` be
+//!   joint `i` or a joint between `i` and the part. The second derivative with respect to both is
+//!   `ω_i × (ω_j × (x - o_j))`. Its component along `n` is at most `|n × ω_i|` times the distance of `x` from the axis
+//!   of `j`. The displacements bound how much both factors change over the box.
 
 use crate::cell::part::HullPart;
 use crate::cell::rounding::PoseRounding;
@@ -27,13 +27,14 @@ use rigid_ccd::oracle::Frame;
 pub(super) struct BoxMotion {
     axes: Vec<JointAxis>,
     rounding: PoseRounding,
-    /// For either part and each joint, the largest distance of the part's points from the axis. The rounding ball is
-    /// left out, because it stays a ball. 1 for a prismatic joint.
-    arms: [Vec<f64>; 2],
-    /// For either part and each joint, the largest displacement of a point by this joint alone.
+    /// For each part and each joint, the largest distance of the part's points from the axis, without the radius of the
+    /// rounding ball, because a ball does not change when it rotates. 1 for a prismatic joint.
+    lever_arms: [Vec<f64>; 2],
+    /// For each part and each joint, the largest displacement of a point by this joint alone.
     displacements: [Vec<f64>; 2],
-    /// Scratch memory of [`BoxMotion::gap_lower_bound`]: for each `s`, the lowest height of B and the highest of A.
-    heights: [Vec<f64>; 2],
+    /// Scratch memory of [`BoxMotion::gap_lower_bound`]: for each part and each `s`, the extremal coordinate of a point
+    /// along the direction, to first order: the largest for A, the least for B.
+    extremal_coordinates: [Vec<f64>; 2],
 }
 
 /// The axis of a joint at the center of a box.
@@ -93,24 +94,24 @@ impl BoxMotion {
     ) -> Displacement {
         for side in 0..2 {
             let (part, center) = (parts[side], centers[side]);
-            self.arms[side].clear();
+            self.lever_arms[side].clear();
             self.displacements[side].clear();
             for axis in &self.axes {
-                let arm = if axis.is_prismatic {
+                let lever_arm = if axis.is_prismatic {
                     1.0
                 } else {
-                    let from_axis = axis.direction.cross(center - axis.origin).length();
+                    let center_distance = axis.direction.cross(center - axis.origin).length();
                     let core_radius = part.ball_radius - part.radius;
-                    from_axis + core_radius + 3.0 * self.rounding.of_points
+                    center_distance + core_radius + 3.0 * self.rounding.of_points
                 };
-                self.arms[side].push(arm);
-                self.displacements[side].push(axis.displacement(arm) * ROUNDING_FACTOR);
+                self.lever_arms[side].push(lever_arm);
+                self.displacements[side].push(axis.displacement(lever_arm) * ROUNDING_FACTOR);
             }
         }
-        let [of_a, of_b] = &self.displacements;
-        let mut bound: f64 = of_b.iter().sum();
+        let [displacements_a, displacements_b] = &self.displacements;
+        let mut bound: f64 = displacements_b.iter().sum();
         let mut best = Displacement { bound, split: 0 };
-        for (joint, (a, b)) in of_a.iter().zip(of_b).enumerate() {
+        for (joint, (a, b)) in displacements_a.iter().zip(displacements_b).enumerate() {
             bound += a - b;
             // Written so that a NaN replaces the bound: a NaN proves nothing.
             if !(bound >= best.bound) {
@@ -121,168 +122,194 @@ impl BoxMotion {
             }
         }
         // Sums again, because the running sum of differences has larger rounding errors.
-        let (a, b) = (&of_a[..best.split], &of_b[best.split..]);
+        let (a, b) = (
+            &displacements_a[..best.split],
+            &displacements_b[best.split..],
+        );
         best.bound = a.iter().chain(b).sum::<f64>() * ROUNDING_FACTOR;
         best
     }
 
     /// Returns the index of the joint that contributes most to a displacement; `None` without joints.
     pub(super) fn main_joint(&self, displacement: Displacement) -> Option<usize> {
-        let [of_a, of_b] = &self.displacements;
-        let fraction = |joint: usize| {
+        let [displacements_a, displacements_b] = &self.displacements;
+        let contribution = |joint: usize| {
             if joint < displacement.split {
-                of_a[joint]
+                displacements_a[joint]
             } else {
-                of_b[joint]
+                displacements_b[joint]
             }
         };
-        (0..self.axes.len()).max_by(|&a, &b| fraction(a).total_cmp(&fraction(b)))
+        (0..self.axes.len()).max_by(|&a, &b| contribution(a).total_cmp(&contribution(b)))
     }
 
-    /// Returns a lower bound of the distance of two parts over the whole box, along a unit direction from A to B. The
-    /// parts must be those of the last call of [`BoxMotion::displacement`]. Returns negative infinity if the
-    /// second-order remainder exceeds the gap at the center.
+    /// Returns a lower bound of the distance of two parts over the whole box, along a unit direction from A to B.
+    /// [`BoxMotion::displacement`] must have been called for the same parts before. Returns negative infinity if the
+    /// second-order remainder is at least the gap at the center.
     pub(super) fn gap_lower_bound(
         &mut self,
         direction: DVec3,
         parts: [&HullPart; 2],
         frames: [&Frame; 2],
-        gap_in_middle: f64,
+        gap_at_center: f64,
     ) -> f64 {
         let count = self.axes.len();
         let remainders: Vec<f64> = (0..=count)
             .map(|split| self.remainder(direction, split))
             .collect();
-        let least = remainders.iter().copied().fold(f64::INFINITY, lesser);
+        let least_remainder = remainders.iter().copied().fold(f64::INFINITY, lesser);
         // Written so that NaN proves nothing.
-        if !(least < gap_in_middle) {
+        if !(least_remainder < gap_at_center) {
             return f64::NEG_INFINITY;
         }
-        self.measure_heights(direction, parts, frames);
-        let [of_a, of_b] = &self.heights;
+        self.compute_extremal_coordinates(direction, parts, frames);
+        let [largest_of_a, least_of_b] = &self.extremal_coordinates;
         let mut best = f64::NEG_INFINITY;
         for split in 0..=count {
-            best = greater(best, of_b[split] - of_a[split] - remainders[split]);
+            best = greater(
+                best,
+                least_of_b[split] - largest_of_a[split] - remainders[split],
+            );
         }
-        // The heights have the errors of two points. A first-order term is a deviation times an arm; the error of its
-        // direction is that of two unit vectors.
+        // Both coordinates have the error of a point. A first-order term is a deviation times a lever arm, along a
+        // direction with the errors of two unit vectors.
         let terms: f64 = (0..2).map(|side| self.first_order_sum(side)).sum();
-        let allowance = 4.0 * (self.rounding.of_points + self.rounding.of_directions * terms);
-        best - parts[0].radius - parts[1].radius - allowance
+        let error_bound = 4.0 * (self.rounding.of_points + self.rounding.of_directions * terms);
+        best - parts[0].radius - parts[1].radius - error_bound
     }
 
     /// Bounds the second-order remainder of both parts' motions along a direction.
     fn remainder(&self, direction: DVec3, split: usize) -> f64 {
-        let to_b = self.side_remainder(direction, 1, &(split..self.axes.len()));
-        let to_a = self.side_remainder(direction, 0, &(0..split).rev());
-        (to_a + to_b) * ROUNDING_FACTOR
+        let remainder_of_b = self.side_remainder(direction, 1, &(split..self.axes.len()));
+        let remainder_of_a = self.side_remainder(direction, 0, &(0..split).rev());
+        (remainder_of_a + remainder_of_b) * ROUNDING_FACTOR
     }
 
-    /// Bounds the second-order remainder of one part's motion along a direction. `joints` are those that move the
-    /// part, the nearest to the part last.
+    /// Bounds the second-order remainder of one part's motion along a direction. `joints` are the joints that move the
+    /// part. The joint nearest to the part comes last.
     fn side_remainder(
         &self,
         direction: DVec3,
         side: usize,
         joints: &(impl Iterator<Item = usize> + Clone),
     ) -> f64 {
-        let (mut inner, mut total) = (0.0, 0.0);
+        let (mut sum_of_tilts, mut total) = (0.0, 0.0);
         for (index, joint) in joints.clone().enumerate() {
             let axis = &self.axes[joint];
-            let (reach, tilt) = if axis.is_prismatic {
+            let (max_lever_arm, tilt) = if axis.is_prismatic {
                 (1.0, 0.0)
             } else {
                 let error = 2.0 * self.rounding.of_directions;
-                let before = joints.clone().take(index).map(|other| &self.axes[other]);
-                let turned: f64 = before.map(|other| other.turns(axis.direction, error)).sum();
-                let tilt = direction.cross(axis.direction).length() + error + turned;
-                let after = joints.clone().skip(index + 1);
-                let displaced: f64 = after.map(|other| self.displacements[side][other]).sum();
-                (self.arms[side][joint] + displaced, lesser(tilt, 1.0))
+                let joints_before = joints.clone().take(index).map(|other| &self.axes[other]);
+                let max_turn: f64 = joints_before
+                    .map(|other| other.max_change_of(axis.direction, error))
+                    .sum();
+                let tilt = direction.cross(axis.direction).length() + error + max_turn;
+                let joints_after = joints.clone().skip(index + 1);
+                let max_displacement: f64 = joints_after
+                    .map(|other| self.displacements[side][other])
+                    .sum();
+                (
+                    self.lever_arms[side][joint] + max_displacement,
+                    lesser(tilt, 1.0),
+                )
             };
-            total += axis.deviation * reach * (0.5 * axis.deviation * tilt + inner);
-            inner += axis.deviation * tilt;
+            total += axis.deviation * max_lever_arm * (0.5 * axis.deviation * tilt + sum_of_tilts);
+            sum_of_tilts += axis.deviation * tilt;
         }
         total
     }
 
     /// Bounds how far a point of a part moves, to first order, along any direction.
     fn first_order_sum(&self, side: usize) -> f64 {
-        let joints = self.axes.iter().zip(&self.arms[side]);
-        joints.map(|(axis, arm)| axis.deviation * arm).sum()
+        let joints = self.axes.iter().zip(&self.lever_arms[side]);
+        joints
+            .map(|(axis, lever_arm)| axis.deviation * lever_arm)
+            .sum()
     }
 
-    /// Computes for each `s` the lowest height of B and the highest of A along a direction, to first order.
-    fn measure_heights(&mut self, direction: DVec3, parts: [&HullPart; 2], frames: [&Frame; 2]) {
+    /// Computes, for each `s`, the largest coordinate of A and the least of B along a direction, to first order.
+    fn compute_extremal_coordinates(
+        &mut self,
+        direction: DVec3,
+        parts: [&HullPart; 2],
+        frames: [&Frame; 2],
+    ) {
         let count = self.axes.len();
         let first_order_sums = [0, 1].map(|side| self.first_order_sum(side));
-        let BoxMotion { axes, heights, .. } = self;
+        let BoxMotion {
+            axes,
+            extremal_coordinates,
+            ..
+        } = self;
         let mut slopes = Vec::with_capacity(count);
         for (side, sign) in [(0, -1.0), (1, 1.0)] {
-            let (frame, part, heights) = (frames[side], parts[side], &mut heights[side]);
-            let along = frame.inverse_transform_vector(direction) * sign;
+            let (frame, part) = (frames[side], parts[side]);
+            let least = &mut extremal_coordinates[side];
+            let signed_direction = frame.inverse_transform_vector(direction) * sign;
             let offset = direction.dot(frame.translation) * sign;
             slopes.clear();
             slopes.extend(axes.iter().map(|axis| axis.slope(direction, frame)));
-            heights.clear();
-            heights.resize(count + 1, f64::INFINITY);
-            let (_, lowest) = part.extremal_corner(along);
-            let limit = along.dot(lowest) + 2.0 * first_order_sums[side];
+            least.clear();
+            least.resize(count + 1, f64::INFINITY);
+            let (_, lowest) = part.extremal_corner(signed_direction);
+            let limit = signed_direction.dot(lowest) + 2.0 * first_order_sums[side];
             for &point in part.points() {
-                let mut height = along.dot(point);
-                // This corner cannot become the lowest one.
-                if height > limit {
+                let mut coordinate = signed_direction.dot(point);
+                // This corner cannot have the least coordinate.
+                if coordinate > limit {
                     continue;
                 }
-                height += offset;
+                coordinate += offset;
                 let term = |joint: usize| {
                     let (slope, constant): (DVec3, f64) = slopes[joint];
                     (slope.dot(point) + constant).abs()
                 };
                 if side == 0 {
-                    heights[0] = lesser(heights[0], height);
+                    least[0] = lesser(least[0], coordinate);
                     for joint in 0..count {
-                        height -= term(joint);
-                        heights[joint + 1] = lesser(heights[joint + 1], height);
+                        coordinate -= term(joint);
+                        least[joint + 1] = lesser(least[joint + 1], coordinate);
                     }
                 } else {
-                    heights[count] = lesser(heights[count], height);
+                    least[count] = lesser(least[count], coordinate);
                     for joint in (0..count).rev() {
-                        height -= term(joint);
-                        heights[joint] = lesser(heights[joint], height);
+                        coordinate -= term(joint);
+                        least[joint] = lesser(least[joint], coordinate);
                     }
                 }
             }
         }
-        for height in &mut self.heights[0] {
-            *height = -*height;
+        for coordinate in &mut self.extremal_coordinates[0] {
+            *coordinate = -*coordinate;
         }
     }
 }
 
 impl JointAxis {
-    /// Returns the largest displacement of a point at distance `arm` from the axis.
-    fn displacement(&self, arm: f64) -> f64 {
+    /// Returns the largest displacement of a point at the distance `lever_arm` from the axis.
+    fn displacement(&self, lever_arm: f64) -> f64 {
         if self.is_prismatic {
             self.deviation
         } else {
-            self.chord * arm
+            self.chord * lever_arm
         }
     }
 
-    /// Bounds how far the joint turns a unit vector whose angle to the axis has an error.
-    fn turns(&self, vector: DVec3, error: f64) -> f64 {
+    /// Bounds the length by which the joint changes a unit vector. `error` bounds the rounding error of the vector
+    /// product with the axis.
+    fn max_change_of(&self, vector: DVec3, error: f64) -> f64 {
         self.chord * (self.direction.cross(vector).length() + error)
     }
 
-    /// Returns a linear function of points in a frame. Its absolute value is how far a point moves along a direction,
-    /// to first order.
+    /// Returns the slope and the constant of a linear function of the points in a frame. Its absolute value is the
+    /// distance by which a point moves along a direction, to first order.
     fn slope(&self, direction: DVec3, frame: &Frame) -> (DVec3, f64) {
         if self.is_prismatic {
             return (DVec3::ZERO, self.deviation * direction.dot(self.direction));
         }
-        let across = self.deviation * direction.cross(self.direction);
-        let constant = across.dot(frame.translation - self.origin);
-        (frame.inverse_transform_vector(across), constant)
+        let moment = self.deviation * direction.cross(self.direction);
+        let constant = moment.dot(frame.translation - self.origin);
+        (frame.inverse_transform_vector(moment), constant)
     }
 }

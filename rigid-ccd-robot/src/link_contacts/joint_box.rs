@@ -5,7 +5,7 @@ use ccd_core::order::greater;
 /// A box of the positions of the joints between two links.
 #[derive(Clone, Debug)]
 pub(super) struct JointBox {
-    ranges: Vec<[f64; 2]>,
+    pub(super) ranges: Vec<[f64; 2]>,
     /// The volume as a fraction of the volume of the initial box.
     pub(super) volume_fraction: f64,
 }
@@ -20,32 +20,28 @@ impl JointBox {
 
     /// Returns the box that contains a single point.
     pub(super) fn from_point(positions: &[f64]) -> Self {
-        JointBox::new(positions.iter().map(|&own| [own; 2]).collect())
-    }
-
-    pub(super) fn ranges(&self) -> &[[f64; 2]] {
-        &self.ranges
+        JointBox::new(positions.iter().map(|&position| [position; 2]).collect())
     }
 
     /// Returns the center.
-    pub(super) fn middle(&self) -> Vec<f64> {
-        self.ranges.iter().map(middle).collect()
+    pub(super) fn center(&self) -> Vec<f64> {
+        self.ranges.iter().map(midpoint).collect()
     }
 
     /// Returns the largest deviation of a position from the center.
     pub(super) fn max_deviation(&self, index: usize) -> f64 {
-        let ([low, high], middle) = (self.ranges[index], middle(&self.ranges[index]));
-        greater(high - middle, middle - low)
+        let ([low, high], midpoint) = (self.ranges[index], midpoint(&self.ranges[index]));
+        greater(high - midpoint, midpoint - low)
     }
 
     /// Splits the box along a position; `None` if the range is too small to halve.
     pub(super) fn halves(&self, index: usize) -> Option<[Self; 2]> {
         let [low, high] = *self.ranges.get(index)?;
-        let middle = middle(&self.ranges[index]);
-        if !(low < middle && middle < high) {
+        let midpoint = midpoint(&self.ranges[index]);
+        if !(low < midpoint && midpoint < high) {
             return None;
         }
-        Some([[low, middle], [middle, high]].map(|range| {
+        Some([[low, midpoint], [midpoint, high]].map(|range| {
             let mut half = self.clone();
             half.ranges[index] = range;
             half.volume_fraction *= 0.5;
@@ -54,6 +50,6 @@ impl JointBox {
     }
 }
 
-fn middle([low, high]: &[f64; 2]) -> f64 {
+fn midpoint([low, high]: &[f64; 2]) -> f64 {
     0.5 * low + 0.5 * high
 }

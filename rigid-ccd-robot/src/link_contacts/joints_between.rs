@@ -22,7 +22,7 @@ pub(super) struct JointsBetween {
     /// For each position of a box, its index in a configuration.
     position_indices: Vec<usize>,
     /// A configuration for the joints that are not between the links: each at 0, or at its limit nearest to 0.
-    rest: Vec<f64>,
+    default_configuration: Vec<f64>,
 }
 
 /// A moving joint between two links.
@@ -33,21 +33,22 @@ pub(super) struct JointBetween {
     /// The index of its position in a [`JointBox`].
     pub(super) box_index: usize,
     /// The absolute value of the multiplier from that position to the joint's position.
-    pub(super) factor: f64,
+    pub(super) abs_multiplier: f64,
 }
 
 impl JointsBetween {
-    /// Returns `None` if the positions cannot be bounded: an unlimited joint does not repeat after a turn, or a
-    /// prismatic joint moves a body beyond the planes.
+    /// Finds the joints between two links. Returns `None` if their positions cannot be bounded: an unlimited joint does
+    /// not repeat after a turn, or a prismatic joint moves a body beyond the reach of the planes.
     pub(super) fn new(cell: &Cell, links: [usize; 2]) -> Option<Self> {
         let (robot, kinematics) = (cell.robot(), cell.kinematics());
-        let between = robot.chain_between(links[0], links[1]);
+        let link_chain = robot.chain_between(links[0], links[1]);
         let mut position_indices = Vec::new();
-        let numbers = between.joint_indices().iter();
-        let numbers = numbers.filter_map(|&joint| kinematics.moving_joint_index(joint));
-        let joints = numbers.map(|moving_index| {
+        let joint_indices = link_chain.joint_indices().iter();
+        let moving_indices =
+            joint_indices.filter_map(|&joint| kinematics.moving_joint_index(joint));
+        let joints = moving_indices.map(|moving_index| {
             let source = kinematics.joints()[moving_index].source;
-            let index = source.position_index();
+            let index = source.position_index;
             let known = position_indices.iter().position(|&other| other == index);
             let box_index = known.unwrap_or_else(|| {
                 position_indices.push(index);
@@ -56,26 +57,26 @@ impl JointsBetween {
             JointBetween {
                 moving_index,
                 box_index,
-                factor: source.factor().abs(),
+                abs_multiplier: source.multiplier.abs(),
             }
         });
         let joints: Vec<JointBetween> = joints.collect();
         let all_positions = all_positions(cell, &joints, &position_indices)?;
-        let mut farthest = robot.configuration_nearest_zero();
-        for (&index, &[low, high]) in position_indices.iter().zip(all_positions.ranges()) {
-            farthest[index] = greater(low.abs(), high.abs());
+        let mut largest_positions = robot.configuration_nearest_zero();
+        for (&index, &[low, high]) in position_indices.iter().zip(&all_positions.ranges) {
+            largest_positions[index] = greater(low.abs(), high.abs());
         }
-        cell.check_plane_reach(kinematics.magnitudes(&farthest))
+        cell.check_plane_reach(kinematics.magnitudes(&largest_positions))
             .ok()?;
         let mut parents_first: Vec<usize> = joints.iter().map(|joint| joint.moving_index).collect();
         parents_first.sort_unstable();
-        let magnitudes: Vec<_> = kinematics.magnitudes(&farthest).collect();
+        let magnitudes: Vec<_> = kinematics.magnitudes(&largest_positions).collect();
         let magnitudes = magnitudes.iter().copied();
         Some(JointsBetween {
             rounding: pose_rounding(kinematics, cell.parts(), magnitudes),
             common_frame: kinematics
                 .common_frame(links.map(|link| kinematics.link_frame_and_pose(link).0)),
-            rest: robot.configuration_nearest_zero(),
+            default_configuration: robot.configuration_nearest_zero(),
             joints,
             parents_first,
             all_positions,
@@ -83,9 +84,9 @@ impl JointsBetween {
         })
     }
 
-    /// Returns the configuration with the given positions of these joints.
+    /// Returns a configuration with the positions of these joints. All other joints have default positions.
     pub(super) fn configuration(&self, positions: &[f64]) -> Vec<f64> {
-        let mut configuration = self.rest.clone();
+        let mut configuration = self.default_configuration.clone();
         for (&index, &position) in self.position_indices.iter().zip(positions) {
             configuration[index] = position;
         }

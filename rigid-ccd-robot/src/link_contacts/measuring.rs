@@ -52,7 +52,7 @@ pub(super) enum Contact {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ConfigurationCheck {
     pub(super) contact: Contact,
-    /// An approximate distance, if it is below the given limit.
+    /// An approximate distance. If it is not below a limit, this is the limit.
     pub(super) distance: f64,
 }
 
@@ -60,8 +60,8 @@ pub(super) struct ConfigurationCheck {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxCheck {
     pub(super) class: BoxClass,
-    pub(super) in_middle: ConfigurationCheck,
-    /// The index, in the box, of the position that moves the links most.
+    pub(super) at_center: ConfigurationCheck,
+    /// The index, in the box, of the position that contributes most to the displacement of the links.
     pub(super) main_position_index: Option<usize>,
 }
 
@@ -89,7 +89,7 @@ struct PartQuery<'a> {
     displacement: Displacement,
     /// The error bound of a point.
     rounding: f64,
-    /// What other configurations have shown about the links.
+    /// The kind of witness that other configurations have provided.
     known: Contact,
 }
 
@@ -98,12 +98,13 @@ enum BoxProof {
     Apart,
     ShapesTouching,
     BodiesTouching,
-    /// Nothing. The distance falls short by this much.
+    /// Nothing is proven. The number is the required distance minus the distance at the center.
     Undecided(f64),
 }
 
 impl LinkPair {
-    /// Returns `None` if the joint positions cannot be bounded, see [`JointsBetween::new`].
+    /// Finds the joints and the pairs of parts of two links. Returns `None` if the joint positions cannot be bounded, see
+    /// [`JointsBetween::new`].
     pub(super) fn new(cell: &Cell, placement: &Placement, links: [usize; 2]) -> Option<Self> {
         let parts_of = |link: usize| {
             (0..cell.robot_part_count())
@@ -176,8 +177,8 @@ impl<'c> Measurer<'c> {
         Ok(check)
     }
 
-    /// Checks two links over a box. `known` tells which kind of witness other positions have provided; the center need
-    /// not provide another one.
+    /// Checks two links over a box. `known` is the kind of witness that other positions have provided. The center need
+    /// not provide a witness of this kind.
     pub(super) fn check_box(
         &mut self,
         pair: &LinkPair,
@@ -188,13 +189,13 @@ impl<'c> Measurer<'c> {
         self.place_box(&pair.joints, joint_box);
         let mut check = BoxCheck {
             class: BoxClass::Apart,
-            in_middle: ConfigurationCheck {
+            at_center: ConfigurationCheck {
                 contact: Contact::Apart,
                 distance: f64::INFINITY,
             },
             main_position_index: None,
         };
-        let mut worst = f64::NEG_INFINITY;
+        let mut largest_deficit = f64::NEG_INFINITY;
         for part_pair in &pair.part_pairs {
             let placed = self.placed_parts(part_pair);
             let displacement = self.motion.displacement(placed.parts, placed.centers);
@@ -207,7 +208,7 @@ impl<'c> Measurer<'c> {
                 rounding: rounding.of_points,
                 known,
             };
-            match self.prove(&placed, &query, &mut check.in_middle)? {
+            match self.prove(&placed, &query, &mut check.at_center)? {
                 BoxProof::Apart => {}
                 BoxProof::ShapesTouching => {
                     check.class = BoxClass::ShapesTouching;
@@ -217,11 +218,11 @@ impl<'c> Measurer<'c> {
                     check.class = BoxClass::BodiesTouching;
                     return Ok(check);
                 }
-                BoxProof::Undecided(missing) => {
+                BoxProof::Undecided(deficit) => {
                     check.class = BoxClass::Undecided;
                     // Written so that an unknown (NaN) distance comes first.
-                    if !(missing <= worst) {
-                        worst = missing;
+                    if !(deficit <= largest_deficit) {
+                        largest_deficit = deficit;
                         let joint = self.motion.main_joint(displacement);
                         check.main_position_index =
                             joint.map(|joint| pair.joints.joints[joint].box_index);
@@ -237,7 +238,7 @@ impl<'c> Measurer<'c> {
         &mut self,
         placed: &PlacedParts<'_>,
         query: &PartQuery<'_>,
-        in_middle: &mut ConfigurationCheck,
+        at_center: &mut ConfigurationCheck,
     ) -> Result<BoxProof, Error> {
         let rounding = query.rounding;
         let required = query.displacement.bound + 2.0 * rounding;
@@ -248,7 +249,7 @@ impl<'c> Measurer<'c> {
         let is_convex = query.part_pair.pair.is_convex(self.cell.parts());
         let are_hulls_apart = gap > 2.0 * rounding;
         if are_hulls_apart {
-            in_middle.distance = lesser(in_middle.distance, upper);
+            at_center.distance = lesser(at_center.distance, upper);
             let frames = [&placed.frames[0], &placed.frames[1]];
             let direction = axis / axis.length();
             let lower = self
@@ -262,32 +263,31 @@ impl<'c> Measurer<'c> {
         if is_convex && are_hulls_apart {
             return Ok(undecided);
         }
-        // A body may lie deep inside its hull, but not deeper than its size.
+        // A body may lie deep inside its hull, but the depth is at most its size.
         let [size_a, size_b] = placed.parts.map(|part| 2.0 * part.ball_radius);
         let may_be_free = !is_convex && required < greater(gap, 0.0) + lesser(size_a, size_b);
         let mut touching = query.known == Contact::Touching;
         if may_be_free || !(are_hulls_apart || is_convex && touching) {
-            let lower = self.check_bodies(query.part_pair, rounding, in_middle)?;
+            let lower = self.check_bodies(query.part_pair, rounding, at_center)?;
             // Written so that NaN is not free.
             if lower > query.displacement.bound + 4.0 * rounding {
                 return Ok(BoxProof::Apart);
             }
-            touching |= in_middle.contact == Contact::Touching;
-        } else if in_middle.contact == Contact::Apart && !are_hulls_apart {
-            in_middle.contact = Contact::Unknown;
+            touching |= at_center.contact == Contact::Touching;
+        } else if at_center.contact == Contact::Apart && !are_hulls_apart {
+            at_center.contact = Contact::Unknown;
         }
         let depth = query.displacement.bound + 4.0 * rounding;
         if !(is_convex && touching && query.known != Contact::Apart) {
             return Ok(undecided);
         }
-        // `nearer` takes distances of the shapes, not of the bodies.
         let excess: f64 = placed.parts.iter().map(|part| part.excess_over_shape).sum();
-        let nearer = |distance| {
+        let are_shapes_nearer = |distance| {
             are_convex_parts_nearer(self.cell, &self.placement, &query.part_pair.pair, distance)
         };
-        Ok(if nearer(-depth) {
+        Ok(if are_shapes_nearer(-depth) {
             BoxProof::ShapesTouching
-        } else if excess > 0.0 && nearer(excess - depth) {
+        } else if excess > 0.0 && are_shapes_nearer(excess - depth) {
             BoxProof::BodiesTouching
         } else {
             undecided
@@ -305,7 +305,7 @@ impl<'c> Measurer<'c> {
         let a = self.placement.body(self.cell, a)?;
         let b = self.placement.body(self.cell, b)?;
         let outcome = self.solver.distance(a, b)?.outcome;
-        if touch_as_they_are(&outcome, [a.0, b.0]) {
+        if bodies_touch(&outcome, [a.0, b.0]) {
             *check = ConfigurationCheck {
                 contact: Contact::Touching,
                 distance: 0.0,
@@ -328,11 +328,11 @@ impl<'c> Measurer<'c> {
             .place_joints(self.cell, chain, &configuration);
     }
 
-    /// Computes the frames at the center of a box, and the largest deviations from there.
+    /// Computes the frames at the center of a box, and sets the largest deviations of the joints from there.
     fn place_box(&mut self, joints: &JointsBetween, joint_box: &JointBox) {
-        self.place(joints, &joint_box.middle());
+        self.place(joints, &joint_box.center());
         let deviations = joints.joints.iter().map(|joint| {
-            let deviation = joint.factor * joint_box.max_deviation(joint.box_index);
+            let deviation = joint.abs_multiplier * joint_box.max_deviation(joint.box_index);
             (joint.moving_index, deviation)
         });
         let frames = &self.placement.frames;
@@ -340,7 +340,7 @@ impl<'c> Measurer<'c> {
             .place(self.cell.kinematics(), frames, joints.rounding, deviations);
     }
 
-    /// Returns two upper bounds of the distance of a point from a link: from its bodies, and from the shapes that they
+    /// Returns two upper bounds of the distance from a point to a link: to its bodies, and to the shapes that the bodies
     /// enclose.
     pub(super) fn distances_to_link(
         &mut self,
@@ -352,7 +352,7 @@ impl<'c> Measurer<'c> {
             if self.cell.link_of(index) == link {
                 let body = self.placement.body(self.cell, index)?;
                 let outcome = self.solver.distance(body, point)?.outcome;
-                let to_body = if touch_as_they_are(&outcome, [body.0, point.0]) {
+                let to_body = if bodies_touch(&outcome, [body.0, point.0]) {
                     0.0
                 } else {
                     outcome.upper() - body.0.excess()
@@ -386,23 +386,23 @@ impl PlacedParts<'_> {
     }
 
     /// Returns lower and upper bounds of the distance of both hulls, and the axis of the lower bound. The computation
-    /// stops once the lower bound exceeds `beyond` or the upper bound falls below `up_to`.
-    fn hull_distance(&self, [beyond, up_to]: [f64; 2]) -> ([f64; 2], DVec3) {
+    /// stops once the lower bound exceeds `sufficient_lower` or the upper bound is at most `sufficient_upper`.
+    fn hull_distance(&self, [sufficient_lower, sufficient_upper]: [f64; 2]) -> ([f64; 2], DVec3) {
         let radii: f64 = self.parts.iter().map(|part| part.radius).sum();
         let until = TerminationBounds {
-            sufficient_lower_bound: beyond + radii,
-            sufficient_upper_bound: up_to + radii,
+            sufficient_lower_bound: sufficient_lower + radii,
+            sufficient_upper_bound: sufficient_upper + radii,
         };
-        let first = initial_direction(self.parts[1], self.centers);
+        let initial_axis = initial_direction(self.parts[1], self.centers);
         let vertex = |direction| minkowski_support_vertex(self.parts, &self.frames, direction);
-        let bounds = bound_distance(vertex, first, until);
+        let bounds = bound_distance(vertex, initial_axis, until);
         ([bounds.lower - radii, bounds.upper - radii], bounds.axis)
     }
 }
 
-/// Returns whether two bodies touch, up to rounding. The upper bound of the outcome is about the enclosed shapes, so
-/// it includes the excess of both bodies.
-fn touch_as_they_are(outcome: &Outcome, bodies: [&Body; 2]) -> bool {
+/// Returns whether two bodies touch, up to rounding. The upper bound of the outcome is about the shapes inside the
+/// bodies, so it includes the excess of both bodies.
+fn bodies_touch(outcome: &Outcome, bodies: [&Body; 2]) -> bool {
     let excess: f64 = bodies.iter().map(|body| body.excess()).sum();
     outcome.upper() <= excess * (1.0 + 4.0 * f64::EPSILON)
 }

@@ -12,12 +12,15 @@ use rigid_ccd::Error;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// The progress of one pair of links. Positions are those of the joints between them.
-#[derive(Clone, Debug)]
+/// The progress of the search for one pair of links. All positions are positions of the joints between the links.
+#[derive(Clone, Debug, Default)]
 pub(super) struct LinkPairRecord {
     pub(super) links: [usize; 2],
-    pub(super) verdict: Option<Verdict>,
+    /// The class, once it is proven without witnesses: never, always, or always as enclosed.
+    pub(super) proven_class: Option<LinkContactClass>,
+    /// The first positions where the links touch.
     pub(super) touching: Option<Vec<f64>>,
+    /// The first positions where the links are apart.
     pub(super) apart: Option<Vec<f64>>,
     /// The least distance so far, with its positions.
     pub(super) nearest: Option<(f64, Vec<f64>)>,
@@ -29,46 +32,29 @@ pub(super) struct LinkPairRecord {
     pub(super) boxes: usize,
     /// Whether random sampling for witnesses is finished.
     is_sampled: bool,
-    /// Whether the links touch without overlapping at some positions. No box around these can be decided, so only a
-    /// configuration where the links are apart can decide the pair.
+    /// Whether the links touch without overlapping at some positions. No box around these positions can be decided, so
+    /// only a witness where the links are apart can decide the pair.
     pub(super) touches_without_depth: bool,
     /// Whether more boxes are unlikely to decide the pair: positions are unbounded, a box cannot be halved, or the
     /// links touch without overlapping at the center of all boxes.
     pub(super) is_exhausted: bool,
 }
 
-/// What is proven about a pair of links.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Verdict {
-    Never,
-    Always,
-    /// The bodies always touch. Their shapes may not.
-    AlwaysAsEnclosed,
-}
-
-/// Searches for proofs about pairs of links, and keeps memory from pair to pair.
+/// Searches for proofs about pairs of links. Reuses its memory from pair to pair.
 pub(super) struct LinkPairSearch<'c> {
     pub(super) measurer: Measurer<'c>,
-    end: SearchEnd,
+    pub(super) end: SearchEnd,
 }
 
 /// A box in the queue. The largest box comes first.
-struct WaitingBox(JointBox);
+struct QueuedBox(JointBox);
 
 impl LinkPairRecord {
     pub(super) fn new(links: [usize; 2]) -> Self {
         LinkPairRecord {
             links,
-            verdict: None,
-            touching: None,
-            apart: None,
-            nearest: None,
-            apart_fraction: 0.0,
             undecided_fraction: 1.0,
-            boxes: 0,
-            is_sampled: false,
-            touches_without_depth: false,
-            is_exhausted: false,
+            ..LinkPairRecord::default()
         }
     }
 
@@ -80,10 +66,8 @@ impl LinkPairRecord {
         };
         let least_distance = self.nearest.map_or(f64::INFINITY, |(least, _)| least);
         let [touching, apart] = configurations([self.touching, self.apart]);
-        match (self.verdict, touching, apart) {
-            (Some(Verdict::Never), ..) => LinkContactClass::Never,
-            (Some(Verdict::Always), ..) => LinkContactClass::Always,
-            (Some(Verdict::AlwaysAsEnclosed), ..) => LinkContactClass::AlwaysAsEnclosed,
+        match (self.proven_class, touching, apart) {
+            (Some(class), ..) => class,
             (None, Some(touching_configuration), Some(apart_configuration)) => {
                 LinkContactClass::Sometimes {
                     touching_configuration,
@@ -115,14 +99,14 @@ impl LinkPairRecord {
 
     /// Returns whether the pair is decided.
     pub(super) fn is_decided(&self) -> bool {
-        self.verdict.is_some() || (self.touching.is_some() && self.apart.is_some())
+        self.proven_class.is_some() || (self.touching.is_some() && self.apart.is_some())
     }
 
-    /// Returns the number of boxes that a search may examine. This is `limit`. A pair that touches without overlapping
-    /// may examine no more than `own_fraction`, the average for each pair.
-    pub(super) fn quota(&self, limit: usize, own_fraction: usize) -> usize {
+    /// Returns the number of boxes that a search may examine: `limit`, but at most `average` for a pair that touches
+    /// without overlapping.
+    pub(super) fn quota(&self, limit: usize, average: usize) -> usize {
         if self.touches_without_depth {
-            lesser(limit, own_fraction)
+            lesser(limit, average)
         } else {
             limit
         }
@@ -160,8 +144,8 @@ impl<'c> LinkPairSearch<'c> {
         }
     }
 
-    /// Continues the search for a pair of links: first for witnesses, then over at most `max_boxes` boxes, starting at
-    /// the box of all positions.
+    /// Searches for the class of a pair of links. The first call for a pair also searches for witnesses. Each call
+    /// examines at most `max_boxes` boxes, and starts with the box of all positions.
     pub(super) fn search(
         &mut self,
         record: &mut LinkPairRecord,
@@ -173,21 +157,21 @@ impl<'c> LinkPairSearch<'c> {
             return Ok(());
         };
         if !record.is_sampled {
-            record.verdict = self.prove_contact_on_hinge_axis(record.links, &pair)?;
-            if record.verdict.is_some() {
+            record.proven_class = self.prove_contact_on_hinge_axis(record.links, &pair)?;
+            if record.proven_class.is_some() {
                 return Ok(());
             }
             self.find_witnesses(&pair, record)?;
-            record.is_sampled = !self.is_over();
+            record.is_sampled = !self.end.is_reached();
             // Links that do not move relative to each other touch always or never.
             if pair.joints.joints.is_empty() && record.touching.is_some() {
                 self.examine_boxes(&pair, record, 1)?;
                 let fallback = if pair.encloses_shapes(cell) {
-                    Verdict::AlwaysAsEnclosed
+                    LinkContactClass::AlwaysAsEnclosed
                 } else {
-                    Verdict::Always
+                    LinkContactClass::Always
                 };
-                record.verdict.get_or_insert(fallback);
+                record.proven_class.get_or_insert(fallback);
             }
         }
         if !record.is_decided() {
@@ -196,45 +180,42 @@ impl<'c> LinkPairSearch<'c> {
         Ok(())
     }
 
-    pub(super) fn is_over(&self) -> bool {
-        self.end.is_reached()
-    }
-
-    /// Tries to prove, with at most `max_boxes` boxes, that the links never or always touch. Stops if both kinds of
-    /// witnesses are found.
+    /// Tries to prove that the links never or always touch. Examines at most `max_boxes` boxes, and stops if both kinds
+    /// of witnesses are found.
     fn examine_boxes(
         &mut self,
         pair: &LinkPair,
         record: &mut LinkPairRecord,
         max_boxes: usize,
     ) -> Result<(), Error> {
-        let mut waiting = BinaryHeap::from([WaitingBox(pair.joints.all_positions.clone())]);
+        let mut undecided_boxes = BinaryHeap::from([QueuedBox(pair.joints.all_positions.clone())]);
         let (mut apart_fraction, mut touching_fraction) = (0.0, 0.0);
-        let mut always = Verdict::Always;
-        let mut without_depth = 0;
+        let mut class_if_touching = LinkContactClass::Always;
+        let mut undecidable_count = 0;
         record.boxes = 0;
-        while record.boxes < max_boxes && !self.is_over() {
-            if record.boxes == MAX_BOXES_WITHOUT_DEPTH && without_depth == record.boxes {
+        while record.boxes < max_boxes && !self.end.is_reached() {
+            if record.boxes == MAX_BOXES_WITHOUT_DEPTH && undecidable_count == record.boxes {
                 record.is_exhausted = true;
                 break;
             }
-            let Some(WaitingBox(joint_box)) = waiting.pop() else {
+            let Some(QueuedBox(joint_box)) = undecided_boxes.pop() else {
                 break;
             };
             record.boxes += 1;
             let check = self.measurer.check_box(pair, &joint_box, record.known())?;
-            let middle = joint_box.middle();
-            record.record_witness(check.in_middle.contact, &middle);
-            let is_nearer = record.record_distance(check.in_middle.distance, &middle);
+            let center = joint_box.center();
+            record.record_witness(check.at_center.contact, &center);
+            let is_nearer = record.record_distance(check.at_center.distance, &center);
             if is_nearer && record.touching.is_none() {
-                self.descend(pair, record, middle.clone(), check.in_middle.distance)?;
+                self.descend(pair, record, center.clone(), check.at_center.distance)?;
             }
             if record.is_decided() {
                 return Ok(());
             }
-            let is_asked = !record.touches_without_depth || without_depth + 1 == record.boxes;
-            if is_asked && self.stays_undecided((pair, record), &check, &middle)? {
-                without_depth += 1;
+            let may_be_undecidable =
+                !record.touches_without_depth || undecidable_count + 1 == record.boxes;
+            if may_be_undecidable && self.stays_undecided((pair, record), &check, &center)? {
+                undecidable_count += 1;
                 record.touches_without_depth = true;
             }
             match check.class {
@@ -242,16 +223,16 @@ impl<'c> LinkPairSearch<'c> {
                 BoxClass::ShapesTouching => touching_fraction += joint_box.volume_fraction,
                 BoxClass::BodiesTouching => {
                     touching_fraction += joint_box.volume_fraction;
-                    always = Verdict::AlwaysAsEnclosed;
+                    class_if_touching = LinkContactClass::AlwaysAsEnclosed;
                 }
                 BoxClass::Undecided => {
                     let index = check.main_position_index;
                     match index.and_then(|index| joint_box.halves(index)) {
-                        Some(halves) => waiting.extend(halves.map(WaitingBox)),
+                        Some(halves) => undecided_boxes.extend(halves.map(QueuedBox)),
                         // A box that cannot be halved stays undecided.
                         None => {
                             record.is_exhausted = true;
-                            waiting.push(WaitingBox(joint_box));
+                            undecided_boxes.push(QueuedBox(joint_box));
                             break;
                         }
                     }
@@ -264,46 +245,50 @@ impl<'c> LinkPairSearch<'c> {
             (record.apart_fraction, record.undecided_fraction) =
                 (apart_fraction, undecided_fraction);
         }
-        if waiting.is_empty() {
-            // If boxes of both kinds existed, witnesses of both kinds would have decided the pair.
+        if undecided_boxes.is_empty() {
+            // The boxes are not of both kinds, because then witnesses of both kinds would have decided the pair.
             let is_apart = record.touching.is_none() && touching_fraction == 0.0;
-            record.verdict = Some(if is_apart { Verdict::Never } else { always });
+            record.proven_class = Some(if is_apart {
+                LinkContactClass::Never
+            } else {
+                class_if_touching
+            });
         }
         Ok(())
     }
 
-    /// Returns whether no box around this center can be decided, however small, because the links touch there without
-    /// overlapping.
+    /// Returns whether the links touch at this center without overlapping. If they do, no box around the center can be
+    /// decided, however small it is.
     fn stays_undecided(
         &mut self,
         (pair, record): (&LinkPair, &LinkPairRecord),
         check: &BoxCheck,
-        middle: &[f64],
+        center: &[f64],
     ) -> Result<bool, Error> {
-        if check.class != BoxClass::Undecided || check.in_middle.contact == Contact::Apart {
+        if check.class != BoxClass::Undecided || check.at_center.contact == Contact::Apart {
             return Ok(false);
         }
-        let point = JointBox::from_point(middle);
+        let point = JointBox::from_point(center);
         let check = self.measurer.check_box(pair, &point, record.known())?;
         Ok(check.class == BoxClass::Undecided)
     }
 }
 
-impl PartialEq for WaitingBox {
+impl PartialEq for QueuedBox {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for WaitingBox {}
+impl Eq for QueuedBox {}
 
-impl PartialOrd for WaitingBox {
+impl PartialOrd for QueuedBox {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for WaitingBox {
+impl Ord for QueuedBox {
     fn cmp(&self, other: &Self) -> Ordering {
         self.0.volume_fraction.total_cmp(&other.0.volume_fraction)
     }

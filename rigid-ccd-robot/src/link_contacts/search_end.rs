@@ -5,19 +5,19 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// The time at which a search ends, and the flag with which another thread ends it.
+/// The time at which a search ends, and the flag with which another thread can end it.
 #[derive(Clone, Debug)]
 pub(super) struct SearchEnd {
-    time: Option<Instant>,
+    end_time: Option<Instant>,
     pub(super) stop: Option<Arc<AtomicBool>>,
 }
 
 impl SearchEnd {
-    /// Starts the time of the deadline.
+    /// Creates the end of a search that starts now.
     pub(super) fn starting_now(settings: &LinkContactSettings) -> Self {
         SearchEnd {
             // A deadline beyond the range of the clock is no deadline.
-            time: settings
+            end_time: settings
                 .deadline
                 .and_then(|deadline| Instant::now().checked_add(deadline)),
             stop: settings.stop.clone(),
@@ -27,6 +27,6 @@ impl SearchEnd {
     pub(super) fn is_reached(&self) -> bool {
         let stop = self.stop.as_ref();
         stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
-            || self.time.is_some_and(|time| Instant::now() >= time)
+            || self.end_time.is_some_and(|end| Instant::now() >= end)
     }
 }

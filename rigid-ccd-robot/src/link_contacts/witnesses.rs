@@ -1,7 +1,7 @@
 //! Searches for witnesses: configurations where two links touch, and where they are apart.
 //!
-//! Samples positions at random, including limits. From the samples with the least distances, a pattern search
-//! descends: it tries a step along each position in turn, and halves the step size when no step lowers the distance.
+//! First samples positions at random, including limits. A pattern search then descends from the samples with the least
+//! distances: it tries a step along each position in turn, and halves the step when no step lowers the distance.
 
 use super::measuring::{Contact, LinkPair};
 use super::search::{LinkPairRecord, LinkPairSearch};
@@ -17,12 +17,12 @@ impl LinkPairSearch<'_> {
         pair: &LinkPair,
         record: &mut LinkPairRecord,
     ) -> Result<(), Error> {
-        let ranges = pair.joints.all_positions.ranges();
+        let ranges = &pair.joints.all_positions.ranges;
         let mut random = Random(0);
         // The samples with the least distances so far, sorted by distance.
         let mut starts: Vec<(f64, Vec<f64>)> = Vec::new();
         for _ in 0..WITNESS_SAMPLES {
-            if self.is_over() || record.is_decided() {
+            if self.end.is_reached() || record.is_decided() {
                 return Ok(());
             }
             let positions: Vec<f64> = ranges.iter().map(|&range| random.position(range)).collect();
@@ -59,10 +59,10 @@ impl LinkPairSearch<'_> {
         mut positions: Vec<f64>,
         mut distance: f64,
     ) -> Result<(), Error> {
-        let ranges = pair.joints.all_positions.ranges();
+        let ranges = &pair.joints.all_positions.ranges;
         let (mut step, mut check_count) = (FIRST_DESCENT_STEP, 0);
         for _ in 0..MAX_DESCENT_CHECKS {
-            let start = distance;
+            let distance_before = distance;
             for (index, &[low, high]) in ranges.iter().enumerate() {
                 for step in [step, -step] {
                     let mut trial = positions.clone();
@@ -70,7 +70,7 @@ impl LinkPairSearch<'_> {
                     if trial == positions {
                         continue;
                     }
-                    if check_count >= MAX_DESCENT_CHECKS || self.is_over() {
+                    if check_count >= MAX_DESCENT_CHECKS || self.end.is_reached() {
                         return Ok(());
                     }
                     check_count += 1;
@@ -87,7 +87,7 @@ impl LinkPairSearch<'_> {
                     }
                 }
             }
-            if !(distance < start) {
+            if !(distance < distance_before) {
                 step *= 0.5;
                 if step < FIRST_DESCENT_STEP * 0.5f64.powi(DESCENT_HALVINGS) {
                     break;

@@ -2,9 +2,9 @@
 
 use rigid_ccd::Error;
 
-/// An interval of a path. Its ends are measured in segments: 1.5 is the middle of the second segment.
+/// An interval of a path. Its ends are measured in segments: 1.5 is the midpoint of the second segment.
 ///
-/// Intervals are created by halving. One that is longer than a segment begins and ends at configurations.
+/// Intervals are created by halving. An interval that is longer than a segment begins and ends at configurations.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PathInterval {
     pub(crate) from: f64,
@@ -26,11 +26,11 @@ impl PathInterval {
     /// Returns the midpoint, in segments. It is rounded down to a configuration if the interval is longer than a
     /// segment.
     pub(crate) fn middle(&self) -> f64 {
-        let middle = 0.5 * (self.from + self.to);
+        let midpoint = 0.5 * (self.from + self.to);
         if self.to - self.from > 1.0 {
-            middle.floor()
+            midpoint.floor()
         } else {
-            middle
+            midpoint
         }
     }
 
@@ -41,9 +41,9 @@ impl PathInterval {
 
     /// Returns the halves before and after the midpoint.
     pub(crate) fn halves(&self) -> [Self; 2] {
-        let (middle, halvings) = (self.middle(), self.halvings + 1);
+        let (midpoint, halvings) = (self.middle(), self.halvings + 1);
         let (from, to) = (self.from, self.to);
-        [(from, middle), (middle, to)].map(|(from, to)| PathInterval { from, to, halvings })
+        [(from, midpoint), (midpoint, to)].map(|(from, to)| PathInterval { from, to, halvings })
     }
 }
 

@@ -1,7 +1,7 @@
 //! The positions of all moving joints along a path, as polynomials on each segment.
 //!
-//! Between two configurations joints move at constant rates: the polynomials have degree 1. A [`JointCurve`] may have
-//! higher degrees. The variable of a polynomial is the elapsed fraction of the segment.
+//! Between two configurations joints move at constant rates, so the polynomials have degree 1. The polynomials of a
+//! [`JointCurve`] may have higher degrees. The variable of a polynomial is the elapsed fraction of the segment.
 
 use super::interval::PathInterval;
 use crate::cell::rounding::U;
@@ -72,20 +72,20 @@ impl JointPath {
         for segment in 0..self.segment_count {
             for power in 0..=degree {
                 for MovingJoint { source, .. } in joints {
-                    let given = curve.coefficient(segment, power, source.position_index());
-                    let [high, low] = source.polynomial_coefficient(power, given).parts();
+                    let coefficient = curve.coefficient(segment, power, source.position_index);
+                    let [high, low] = source.polynomial_coefficient(power, coefficient).parts();
                     self.coefficients.push(high);
                     self.low_coefficients.push(low);
                 }
             }
-            for (number, joint) in joints.iter().enumerate() {
-                let polynomial = self.polynomial(segment, number);
+            for (joint_index, joint) in joints.iter().enumerate() {
+                let polynomial = self.polynomial(segment, joint_index);
                 let range = polynomial.range();
                 let position = greater(range[0].abs(), range[1].abs());
-                let moved = position + joint.source.offset().abs();
-                let rounding = joint.source.magnitude_of_product(moved)
+                let product = position + joint.source.offset.abs();
+                let rounding = joint.source.magnitude_of_product(product)
                     + EXTENDED_PRECISION_ERROR / U * polynomial.coefficient_magnitude_sum();
-                let magnitude = &mut self.magnitudes[number];
+                let magnitude = &mut self.magnitudes[joint_index];
                 *magnitude = magnitude.or_larger(Magnitude { position, rounding });
                 self.ranges.push(range);
             }
@@ -149,7 +149,8 @@ impl JointPath {
         positions.extend(joints.map(|(start, change)| start + fraction * change));
     }
 
-    /// Computes, for each joint, the largest deviation within an interval from its position at the midpoint.
+    /// Computes, for each joint, the largest deviation within an interval from its position at the midpoint, which is
+    /// in `positions`.
     #[inline(always)]
     pub(crate) fn max_joint_deviations_from_middle(
         &self,
@@ -168,21 +169,22 @@ impl JointPath {
                 let changes = self.coefficient_row(segment, 1).iter();
                 deviations.extend(changes.map(|change| half * change.abs()));
             } else {
-                let middle = interval.middle() - segment as f64;
+                let midpoint = interval.middle() - segment as f64;
                 let joints = 0..self.joint_count;
                 deviations.extend(joints.map(|joint| {
                     let polynomial = self.polynomial(segment, joint);
-                    polynomial.expanded_about(middle).deviation_bound(half)
+                    polynomial.expanded_about(midpoint).deviation_bound(half)
                 }));
             }
         } else {
             deviations.resize(self.joint_count, 0.0);
             for segment in interval.from as usize..interval.to as usize {
                 let ranges = &self.ranges[segment * self.joint_count..][..self.joint_count];
-                for ((largest, range), middle) in deviations.iter_mut().zip(ranges).zip(positions) {
+                for ((largest, range), position) in deviations.iter_mut().zip(ranges).zip(positions)
+                {
                     for bound in range {
                         // Written so that NaN stays.
-                        let deviation = (bound - middle).abs();
+                        let deviation = (bound - position).abs();
                         if !(deviation <= *largest) {
                             *largest = deviation;
                         }
@@ -197,8 +199,8 @@ impl JointPath {
         self.polynomial(segment, joint).value(fraction)
     }
 
-    /// Bounds how far a joint of a curve deviates, between two fractions of a segment, from a motion at a constant
-    /// rate. Allows for an error of one ulp of 1 in the fractions.
+    /// Bounds how far a joint of a curve deviates from a motion at a constant rate between two fractions of a segment.
+    /// The bound allows for an error of one ulp of 1 in the fractions.
     pub(crate) fn chord_deviation_bound(
         &self,
         segment: usize,

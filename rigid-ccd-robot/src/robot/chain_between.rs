@@ -17,13 +17,13 @@ use rigid_ccd::trajectory::Chain;
 /// # let links = ["hand", "left finger", "right finger"].map(Link::named).to_vec();
 /// let gripper = Robot::new(links, joints)?;
 /// let [left, right] = [gripper.link_number("left finger")?, gripper.link_number("right finger")?];
-/// let between = gripper.chain_between(left, right);
-/// // The right finger follows the left one: both close, as the left one sees it by twice as much.
-/// let [open, closed] = [between.positions(&gripper, &[0.04])?, between.positions(&gripper, &[0.0])?];
-/// let closes = between.chain().link(2, &open, &closed, 1.0)?;
+/// let right_from_left = gripper.chain_between(left, right);
+/// // Both fingers move by 0.04, so the right finger moves by 0.08 in the frame of the left finger.
+/// let [open, closed] = [&[0.04], &[0.0]].map(|configuration| right_from_left.positions(&gripper, configuration));
+/// let closing = right_from_left.chain().link(2, &open?, &closed?, 1.0)?;
 /// # use rigid_ccd::trajectory::Trajectory;
-/// let moved = closes.pose(1.0)?.translation().y - closes.pose(0.0)?.translation().y;
-/// assert!((moved - 0.08).abs() < 1e-15);
+/// let displacement = closing.pose(1.0)?.translation().y - closing.pose(0.0)?.translation().y;
+/// assert!((displacement - 0.08).abs() < 1e-15);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -49,7 +49,8 @@ impl ChainBetween {
     }
 
     /// Returns the positions of the chain's joints at a configuration of the robot. The position of a mimic joint is
-    /// rounded once; if it follows a mimic joint, its multiplier and offset are rounded once for each of these.
+    /// rounded once. If a mimic joint follows another mimic joint, its multiplier and offset are also rounded, once for
+    /// each joint that is followed.
     ///
     /// # Errors
     /// [`RobotError::WrongPositionCount`], [`RobotError::InvalidPosition`].

@@ -10,8 +10,8 @@ use rigid_ccd::{InputError, Pose, trajectory};
 pub enum CompoundKind {
     /// Translation in a plane and rotation about its normal: the positions `x`, `y` and `yaw`.
     Planar {
-        /// The normal of the plane, in the joint's frame. If it is z, `x` and `y` are along the frame's axes. In a
-        /// URDF the normal is the joint's axis, x by default. Some other programs always use z.
+        /// The normal of the plane, in the joint's frame. If the normal is z, `x` and `y` are along the frame's axes.
+        /// In a URDF the normal is the joint's axis, which is x by default. Some other programs always use z.
         normal: [f64; 3],
     },
     /// Free motion: the positions `x`, `y`, `z`, `yaw`, `pitch` and `roll`.
@@ -23,10 +23,10 @@ pub enum CompoundKind {
 impl CompoundKind {
     /// Creates the joints, and the links between them, that connect a child link to its parent.
     ///
-    /// A joint `drive` becomes joints `drive/x`, `drive/y` and so on, each with a position of its own and without
-    /// limits. Rotations are by yaw about z, then by pitch about the rotated y, then by roll about the rotated x, as
-    /// in URDF. Between two configurations each angle changes at a constant rate. The links between the joints have
-    /// the joints' names and no bodies. Parent and child are therefore not adjacent, and are checked.
+    /// A joint `drive` becomes the independent joints `drive/x`, `drive/y` and so on, without limits. Rotations are by
+    /// yaw about z, then by pitch about the rotated y, then by roll about the rotated x, as in URDF. Between two
+    /// configurations each angle changes at a constant rate. Each link between two joints has the name of the joint
+    /// before it, and no bodies. Parent and child are not adjacent because of these links, so their pair is checked.
     ///
     /// # Errors
     /// [`InputError`] for a normal that is not finite, or has no length.
@@ -60,7 +60,7 @@ impl CompoundKind {
             ("y", slide(DVec3::Y)),
             ("z", slide(DVec3::Z)),
         ];
-        let freedoms = match self {
+        let degrees_of_freedom = match self {
             CompoundKind::Spherical => rotations.to_vec(),
             CompoundKind::Floating => [slides, rotations].concat(),
             CompoundKind::Planar { normal } => {
@@ -70,39 +70,42 @@ impl CompoundKind {
                     _ => DVec3::Z,
                 };
                 // For z, the two axes are x and y.
-                let other = if axis.y.abs() < 0.9 {
+                let in_plane = if axis.y.abs() < 0.9 {
                     DVec3::Y
                 } else {
                     DVec3::X
                 };
-                let along = other.cross(axis);
+                let x = in_plane.cross(axis);
                 vec![
-                    ("x", slide(along)),
-                    ("y", slide(axis.cross(along))),
+                    ("x", slide(x)),
+                    ("y", slide(axis.cross(x))),
                     ("yaw", turn(axis)),
                 ]
             }
         };
-        let names: Vec<String> = freedoms
+        let names: Vec<String> = degrees_of_freedom
             .iter()
-            .map(|(freedom, _)| format!("{joint}/{freedom}"))
+            .map(|(suffix, _)| format!("{joint}/{suffix}"))
             .collect();
         let last = names.len() - 1;
-        let joints = freedoms.iter().enumerate().map(|(k, &(_, (turns, axis)))| {
-            let origin = if k == 0 { origin } else { Pose::IDENTITY };
-            let moving = if turns {
-                trajectory::Joint::revolute(origin, axis.to_array())?
-            } else {
-                trajectory::Joint::prismatic(origin, axis.to_array())?
-            };
-            Ok(Joint {
-                name: names[k].clone(),
-                parent: if k == 0 { parent } else { &names[k - 1] }.to_owned(),
-                child: if k == last { child } else { &names[k] }.to_owned(),
-                geometry: moving,
-                position_rule: PositionRule::Independent,
-            })
-        });
+        let joints = degrees_of_freedom
+            .iter()
+            .enumerate()
+            .map(|(k, &(_, (is_rotation, axis)))| {
+                let origin = if k == 0 { origin } else { Pose::IDENTITY };
+                let geometry = if is_rotation {
+                    trajectory::Joint::revolute(origin, axis.to_array())?
+                } else {
+                    trajectory::Joint::prismatic(origin, axis.to_array())?
+                };
+                Ok(Joint {
+                    name: names[k].clone(),
+                    parent: if k == 0 { parent } else { &names[k - 1] }.to_owned(),
+                    child: if k == last { child } else { &names[k] }.to_owned(),
+                    geometry,
+                    position_rule: PositionRule::Independent,
+                })
+            });
         let links = names[..last].iter().map(Link::named).collect();
         Ok((links, joints.collect::<Result<_, InputError>>()?))
     }

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 pub(super) struct Tree {
     /// For each link, its parent joint and link; `None` for the base.
     parents: Vec<Option<Parent>>,
-    base: usize,
+    pub(super) base: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -28,26 +28,26 @@ pub(super) struct PathJoint {
 
 impl Tree {
     pub(super) fn new(links: &[Link], joints: &[Joint]) -> Result<Self, RobotError> {
-        let mut numbers = HashMap::new();
-        for (number, Link { name, .. }) in links.iter().enumerate() {
-            if numbers.insert(name.as_str(), number).is_some() {
+        let mut link_indices = HashMap::new();
+        for (index, Link { name, .. }) in links.iter().enumerate() {
+            if link_indices.insert(name.as_str(), index).is_some() {
                 return Err(RobotError::LinkNameTaken { link: name.clone() });
             }
         }
-        let number = |name: &String| {
-            let number = numbers.get(name.as_str()).copied();
-            number.ok_or_else(|| RobotError::NoSuchLink { link: name.clone() })
+        let link_index = |name: &String| {
+            let index = link_indices.get(name.as_str()).copied();
+            index.ok_or_else(|| RobotError::NoSuchLink { link: name.clone() })
         };
-        let mut above = vec![None; links.len()];
+        let mut parents = vec![None; links.len()];
         let mut joint_names = HashMap::new();
         for (k, joint) in joints.iter().enumerate() {
             let name = joint.name.clone();
             if joint_names.insert(name.clone(), k).is_some() {
                 return Err(RobotError::JointNameTaken { joint: name });
             }
-            let (child, parent) = (number(&joint.child)?, number(&joint.parent)?);
+            let (child, parent) = (link_index(&joint.child)?, link_index(&joint.parent)?);
             let link = || joint.child.clone();
-            if above[child]
+            if parents[child]
                 .replace(Parent {
                     joint: k,
                     link: parent,
@@ -60,19 +60,20 @@ impl Tree {
                 });
             }
         }
-        let mut bases = (0..links.len()).filter(|&link| above[link].is_none());
+        let mut bases = (0..links.len()).filter(|&link| parents[link].is_none());
         let name = |link: usize| links[link].name.clone();
         let base = match (bases.next(), bases.next()) {
             (Some(base), None) => base,
             (Some(first), Some(second)) => {
-                let is_parent = |link: usize| above.iter().flatten().any(|of| of.link == link);
+                let is_parent =
+                    |link: usize| parents.iter().flatten().any(|parent| parent.link == link);
                 if let (true, false) | (false, true) = (is_parent(first), is_parent(second)) {
-                    let (base, lone) = if is_parent(first) {
+                    let (base, unconnected) = if is_parent(first) {
                         (first, second)
                     } else {
                         (second, first)
                     };
-                    let (link, base) = (name(lone), name(base));
+                    let (link, base) = (name(unconnected), name(base));
                     return Err(RobotError::LinkWithoutJoint { link, base });
                 }
                 let (first, second) = (name(first), name(second));
@@ -84,23 +85,16 @@ impl Tree {
             (None, _) if links.is_empty() => return Err(RobotError::NoLinks),
             (None, _) => return Err(RobotError::Loop { link: name(0) }),
         };
-        let tree = Tree {
-            parents: above,
-            base,
-        };
-        let is_lost = |&link: &usize| tree.link_and_ancestors(link).count() > links.len();
-        match (0..links.len()).find(is_lost) {
+        let tree = Tree { parents, base };
+        let is_below_loop = |&link: &usize| tree.link_and_ancestors(link).count() > links.len();
+        match (0..links.len()).find(is_below_loop) {
             Some(link) => Err(RobotError::Loop { link: name(link) }),
             None => Ok(tree),
         }
     }
 
-    pub(super) fn base(&self) -> usize {
-        self.base
-    }
-
     pub(super) fn parent(&self, link: usize) -> Option<usize> {
-        self.parents[link].map(|above| above.link)
+        self.parents[link].map(|parent| parent.link)
     }
 
     /// Returns (link, parent link, joint) for all links except the base. Parents come before children.
@@ -109,17 +103,17 @@ impl Tree {
             .map(|link| (self.link_and_ancestors(link).count(), link))
             .collect();
         links.sort_unstable();
-        let above = |&(_, link): &(usize, usize)| {
-            self.parents[link].map(|above| (link, above.link, above.joint))
+        let with_parent = |&(_, link): &(usize, usize)| {
+            self.parents[link].map(|parent| (link, parent.link, parent.joint))
         };
-        links.iter().filter_map(above).collect()
+        links.iter().filter_map(with_parent).collect()
     }
 
-    /// Iterates over a link and its ancestors, up to the base. Ends in a loop, too, after more steps than there are
-    /// links.
+    /// Iterates over a link and its ancestors, up to the base. In a loop of joints, ends after one more step than there
+    /// are links.
     fn link_and_ancestors(&self, link: usize) -> impl Iterator<Item = usize> {
-        let up = |&link: &usize| self.parent(link);
-        std::iter::successors(Some(link), up).take(self.parents.len() + 1)
+        let parent = |&link: &usize| self.parent(link);
+        std::iter::successors(Some(link), parent).take(self.parents.len() + 1)
     }
 
     /// Returns the joints on the path between two links, through their nearest common ancestor.
@@ -135,8 +129,8 @@ impl Tree {
             self.link_and_ancestors(link)
                 .take_while(move |&link| link != common)
                 .filter_map(move |link| self.parents[link])
-                .map(move |above| PathJoint {
-                    joint: above.joint,
+                .map(move |parent| PathJoint {
+                    joint: parent.joint,
                     leads_to_parent: is_up,
                 })
         };

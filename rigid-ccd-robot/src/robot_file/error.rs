@@ -28,28 +28,14 @@ pub enum RobotFileError {
         /// The parser's message.
         error: String,
     },
-    /// A shape, a mesh or a pose of a link cannot be used.
-    #[error("link `{link}`: {error}")]
-    Link {
-        /// The name of the link that cannot be used.
-        link: String,
-        /// The error of the link's shape, mesh or pose.
-        error: Box<RobotFileError>,
-    },
-    /// The kind, the axis or the pose of a joint cannot be used.
-    #[error("joint `{joint}`: {error}")]
-    Joint {
-        /// The name of the joint that cannot be used.
-        joint: String,
-        /// The error of the joint's kind, axis or pose.
-        error: Box<RobotFileError>,
-    },
-    /// A geom of an MJCF cannot be used.
-    #[error("geom `{geom}`: {error}")]
-    Geom {
-        /// The name of the geom, or its index in its body.
-        geom: String,
-        /// The error of the geom's shape, mesh or pose.
+    /// An error occurred in a link, a joint, or a geom of an MJCF.
+    #[error("{kind} `{name}`: {error}")]
+    Within {
+        /// The kind of the element: `link`, `joint` or `geom`.
+        kind: &'static str,
+        /// The name of the element. A geom without a name has its index in its body.
+        name: String,
+        /// The error in the element.
         error: Box<RobotFileError>,
     },
     /// An element of an MJCF cannot be read.
@@ -69,7 +55,7 @@ pub enum RobotFileError {
     /// A package folder does not exist.
     #[error("there is no folder {} to search for packages", folder.display())]
     NoFolder {
-        /// The given path.
+        /// The path of the folder.
         folder: PathBuf,
     },
     /// A floating, planar or spherical joint has a `mimic`.
@@ -103,26 +89,11 @@ pub enum RobotFileError {
 }
 
 impl RobotFileError {
-    /// Adds the name of the link in which the error occurred.
-    pub(super) fn with_link_name(self, link: &str) -> Self {
-        RobotFileError::Link {
-            link: link.to_owned(),
-            error: Box::new(self),
-        }
-    }
-
-    /// Adds the name of the geom in which the error occurred.
-    pub(super) fn with_geom_name(self, geom: &str) -> Self {
-        RobotFileError::Geom {
-            geom: geom.to_owned(),
-            error: Box::new(self),
-        }
-    }
-
-    /// Adds the name of the joint in which the error occurred.
-    pub(super) fn with_joint_name(self, joint: &str) -> Self {
-        RobotFileError::Joint {
-            joint: joint.to_owned(),
+    /// Adds the kind and the name of the element in which the error occurred.
+    pub(super) fn within(self, kind: &'static str, name: &str) -> Self {
+        RobotFileError::Within {
+            kind,
+            name: name.to_owned(),
             error: Box::new(self),
         }
     }

@@ -30,10 +30,10 @@ pub enum MeshConversion {
 /// The kind of file that refers to meshes, which determines how mesh files are interpreted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum MeshRules {
-    /// As in Coal: a fourth number of a vertex divides the others, and vertices without a face are ignored.
+    /// The rules of Coal: a fourth number of a vertex divides the others, and vertices without a face are ignored.
     Urdf,
-    /// As in MuJoCo: a fourth number of a vertex is an error unless it is 1, and hulls contain vertices without a
-    /// face.
+    /// The rules of MuJoCo: a fourth number of a vertex is an error unless it is 1, and hulls contain vertices without
+    /// a face.
     Mjcf,
 }
 
@@ -42,7 +42,7 @@ pub(super) struct MeshBodies {
     conversion: MeshConversion,
     rules: MeshRules,
     bodies_by_mesh: RefCell<HashMap<MeshKey, Arc<Body>>>,
-    /// For each file that was read, what its reader ignored or changed.
+    /// For each file that was read, the remarks on what its reader ignored or changed.
     contents: RefCell<BTreeMap<PathBuf, Remarks>>,
     /// Meshes that are used exactly although MuJoCo would use their hulls.
     exact_meshes: RefCell<BTreeSet<PathBuf>>,
@@ -90,7 +90,7 @@ impl MeshBodies {
             .converted_to_unit(Unit::Metre)
             .into_mesh()?;
         let content = &mesh.repairs().remarks;
-        let is_divided = content.iter().any(|own| own.what == DIVIDED_VERTICES);
+        let is_divided = content.iter().any(|remark| remark.what == DIVIDED_VERTICES);
         if self.rules == MeshRules::Mjcf && is_divided {
             let shape = "a mesh whose vertices have a fourth number other than 1";
             return Err(MjcfError::UnsupportedShape { shape }.into());

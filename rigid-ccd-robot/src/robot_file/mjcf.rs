@@ -1,6 +1,6 @@
 //! Converts a MuJoCo model (MJCF) into a robot.
 //!
-//! Unknown elements are errors, because they may be shapes.
+//! An unknown element is an error, because it may be a shape.
 
 mod assets;
 mod attributes;
@@ -49,17 +49,17 @@ impl MjcfModel {
         let (mut links, mut joints) = (Vec::new(), Vec::new());
         for body in &self.bodies {
             let mut link = Link::named(&body.name);
-            let added = geoms.add_to(&mut link, body);
-            added.map_err(|error| error.with_link_name(&body.name))?;
+            let result = geoms.add_to(&mut link, body);
+            result.map_err(|error| error.within("link", &body.name))?;
             links.push(link);
-            let (between, own) = joints_of_bodies.joints(body)?;
-            links.extend(between);
-            joints.extend(own);
+            let (added_links, added_joints) = joints_of_bodies.joints(body)?;
+            links.extend(added_links);
+            joints.extend(added_joints);
         }
         Ok(Robot::new(links, joints)?.with_file_remarks(self.remarks()?))
     }
 
-    /// Lists ignored constraints, and joint limits that seem to be in degrees.
+    /// Returns remarks on ignored constraints, on margins, and on joint limits that seem to be in degrees.
     fn remarks(&self) -> Result<Vec<CellRemark>, MjcfError> {
         let mut remarks = Vec::new();
         for kind in ["connect", "weld"] {
@@ -83,23 +83,24 @@ impl MjcfModel {
         Ok(remarks)
     }
 
-    /// Returns a remark on margins, within which MuJoCo reports contacts of shapes that do not touch.
+    /// Returns a remark if geoms or pairs have margins. MuJoCo reports a contact within a margin, but margins are
+    /// ignored here.
     fn margins(&self) -> Result<Option<CellRemark>, MjcfError> {
         let geoms = self.bodies.iter().flat_map(|body| &body.geoms);
-        let solid = geoms.filter(|geom| self.is_solid(geom));
-        let of_geoms = solid.map(|geom| &geom.attributes);
+        let solid_geoms = geoms.filter(|geom| self.is_solid(geom));
+        let geom_attributes = solid_geoms.map(|geom| &geom.attributes);
         let mut labels = Vec::new();
-        for own in of_geoms.chain(self.constraints_named("pair")) {
-            let [margin] = own.array("margin")?.unwrap_or([0.0]);
+        for attributes in geom_attributes.chain(self.constraints_named("pair")) {
+            let [margin] = attributes.array("margin")?.unwrap_or([0.0]);
             if self.settings.margin().unwrap_or(margin) != 0.0 {
-                labels.push(own.label());
+                labels.push(attributes.label());
             }
         }
-        let more = labels.len().saturating_sub(1);
+        let more_count = labels.len().saturating_sub(1);
         Ok(labels.first().map(|first| {
-            CellRemark::left_out(match more {
+            CellRemark::left_out(match more_count {
                 0 => format!("margin of {first}"),
-                _ => format!("margin of {first} and {more} more"),
+                _ => format!("margin of {first} and {more_count} more"),
             })
         }))
     }

@@ -18,7 +18,7 @@ pub enum MjcfError {
     UnknownElement {
         /// The name of the element.
         element: String,
-        /// The name of the element around it.
+        /// The name of its parent element.
         parent: String,
     },
     /// An element does not have an attribute of this name.
@@ -29,30 +29,30 @@ pub enum MjcfError {
         /// The name of the attribute.
         attribute: String,
     },
-    /// An attribute does not have a value of its kind.
+    /// The value of an attribute is missing or not valid.
     #[error("{attribute}=\"{value}\" of an element `{element}` is not valid")]
     InvalidAttribute {
         /// The kind of the element, and its name.
         element: String,
         /// The name of the attribute.
         attribute: String,
-        /// The value that is given; empty if there is none.
+        /// The value in the file; empty if there is none.
         value: String,
     },
-    /// An element names something that the model does not have.
+    /// An element refers to an element that the model does not have.
     #[error("there is no {kind} `{name}`")]
     UnknownName {
-        /// What it would be, such as `body`.
+        /// The kind of the missing element, such as `body`.
         kind: &'static str,
-        /// The name that nothing has.
+        /// The unknown name.
         name: String,
     },
-    /// Several elements of one kind have one name, or a file is included more than once.
+    /// Several elements of one kind have the same name, or a file is included more than once.
     #[error("there are several elements `{kind}` with the name `{name}`")]
     RepeatedName {
         /// The kind of the elements.
         kind: String,
-        /// Their name, or that of the file.
+        /// The name of the elements, or the name of the file.
         name: String,
     },
     /// MuJoCo would move the body's frame to its center of mass, which changes the positions of its free joint.
@@ -71,10 +71,10 @@ pub enum MjcfError {
         /// The name of the body.
         body: String,
     },
-    /// A shape has no body of its kind.
+    /// A shape cannot be converted to a body.
     #[error("{shape} is not supported; leave it out of the file, and model it as an obstacle")]
     UnsupportedShape {
-        /// What the shape is.
+        /// A description of the shape.
         shape: &'static str,
     },
 }

@@ -12,36 +12,38 @@ pub(super) struct SearchFolders {
     /// Folders that are packages or contain packages, in search order.
     package_folders: Vec<PathBuf>,
     /// The number of folders from the caller, at the start of `package_folders`.
-    given_count: usize,
+    caller_folder_count: usize,
 }
 
 impl SearchFolders {
     /// Lists the folders to search: those of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, then all folders above the
     /// URDF file.
     pub(super) fn for_urdf(urdf: &Path) -> Self {
-        let beside = urdf.parent().unwrap_or(Path::new("")).to_owned();
+        let urdf_folder = urdf.parent().unwrap_or(Path::new("")).to_owned();
         let mut folders = folders_in("ROS_PACKAGE_PATH");
         let prefixes = folders_in("AMENT_PREFIX_PATH");
         folders.extend(prefixes.into_iter().map(|prefix| prefix.join("fraction")));
         // A URDF is usually a few folders below the root of its package.
-        let whole = beside.canonicalize().unwrap_or_else(|_| beside.clone());
-        folders.extend(whole.ancestors().map(Path::to_owned));
+        let absolute = urdf_folder
+            .canonicalize()
+            .unwrap_or_else(|_| urdf_folder.clone());
+        folders.extend(absolute.ancestors().map(Path::to_owned));
         SearchFolders {
-            urdf_folder: beside,
+            urdf_folder,
             package_folders: folders,
-            given_count: 0,
+            caller_folder_count: 0,
         }
     }
 
     pub(super) fn prepend_folder(&mut self, folder: PathBuf) {
         self.package_folders.insert(0, folder);
-        self.given_count += 1;
+        self.caller_folder_count += 1;
     }
 
     /// Checks that the folders from the caller exist. A missing one is probably misspelt.
-    pub(super) fn check_given_folders(&self) -> Result<(), RobotFileError> {
-        let given = &self.package_folders[..self.given_count];
-        match given.iter().find(|folder| !folder.is_dir()) {
+    pub(super) fn check_caller_folders(&self) -> Result<(), RobotFileError> {
+        let from_caller = &self.package_folders[..self.caller_folder_count];
+        match from_caller.iter().find(|folder| !folder.is_dir()) {
             None => Ok(()),
             Some(folder) => Err(RobotFileError::NoFolder {
                 folder: folder.clone(),
@@ -51,34 +53,34 @@ impl SearchFolders {
 
     /// Returns the path of an existing file that a name in the URDF refers to.
     pub(super) fn find_file(&self, uri: &str) -> Result<PathBuf, RobotFileError> {
-        let mut tried = self.possible_paths(uri);
+        let mut searched_paths = self.possible_paths(uri);
         if let Some(decoded) = percent_decoded(uri) {
-            tried.extend(self.possible_paths(&decoded));
+            searched_paths.extend(self.possible_paths(&decoded));
         }
-        match tried.iter().find(|path| path.is_file()) {
+        match searched_paths.iter().find(|path| path.is_file()) {
             Some(path) => Ok(path.clone()),
             None => Err(RobotFileError::MeshNotFound {
                 uri: uri.to_owned(),
-                searched_paths: tried,
+                searched_paths,
             }),
         }
     }
 
     /// Returns the paths that a name in the URDF may refer to, in search order.
     fn possible_paths(&self, uri: &str) -> Vec<PathBuf> {
-        let in_package = uri
+        let path_in_package = uri
             .strip_prefix("package://")
             .or_else(|| uri.strip_prefix("model://"));
-        let Some(path) = in_package else {
+        let Some(path) = path_in_package else {
             let path = uri.strip_prefix("file://").unwrap_or(uri);
             return vec![self.urdf_folder.join(path)];
         };
         let (package, rest) = path.split_once('/').unwrap_or((path, ""));
         let in_folder = |folder: &PathBuf| {
             let is_package = folder.file_name().is_some_and(|name| name == package);
-            let itself = is_package.then(|| folder.join(rest));
+            let in_itself = is_package.then(|| folder.join(rest));
             // If the folder is the package, it comes before a package of the same name inside it.
-            [itself, Some(folder.join(package).join(rest))]
+            [in_itself, Some(folder.join(package).join(rest))]
                 .into_iter()
                 .flatten()
         };

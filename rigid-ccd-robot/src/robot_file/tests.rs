@@ -298,7 +298,7 @@ fn a_file_without_shapes_and_joints_is_remarked_upon() {
             urdf("<link name='base'/>"),
             "one link without shapes, base,",
         ),
-        (urdf(&visual), "shapes for drawing only"),
+        (urdf(&visual), "only shapes for drawing"),
         (urdf(left_out), "one link without shapes, base,"),
         (
             "<mujoco><worldbody/></mujoco>".to_owned(),

@@ -9,10 +9,11 @@ use super::body_elements::BodyElements;
 use super::error::RobotFileError;
 use super::meshes::MeshBodies;
 use super::packages::SearchFolders;
+use super::parse_xml;
 use super::urdf_error::UrdfError;
 use crate::remark::CellRemark;
 use crate::robot::{CompoundKind, Joint, Link, LinkBody, PositionRule, Robot};
-use element::{Element, only, parse, required, with_declared_prefixes};
+use element::{Element, only, required, with_declared_prefixes};
 use rigid_ccd::glam::{DAffine3, DQuat, DVec3, EulerRot};
 use rigid_ccd::{Body, Pose, Remark, trajectory};
 use std::sync::Arc;
@@ -54,7 +55,7 @@ impl<'r> UrdfReader<'r> {
     /// Reads the text of a URDF. The outer error is a syntax error.
     pub(super) fn read(mut self, text: &str) -> Result<Result<Robot, RobotFileError>, String> {
         let text = with_declared_prefixes(text)?;
-        let document = parse(&text)?;
+        let document = parse_xml(&text)?;
         Ok(Element::root(&document)
             .map_err(RobotFileError::from)
             .and_then(|root| self.robot(&root)))
@@ -67,33 +68,33 @@ impl<'r> UrdfReader<'r> {
             let name = element.required("name")?;
             if element.name() == "link" {
                 let link = self.link(&element, name);
-                links.push(link.map_err(|error| error.with_link_name(name))?);
+                links.push(link.map_err(|error| error.within("link", name))?);
             } else {
                 let joint = self.joint(&element, name);
-                joints.push(joint.map_err(|error| error.with_joint_name(name))?);
+                joints.push(joint.map_err(|error| error.within("joint", name))?);
             }
         }
         let mut all_joints = Vec::new();
-        for (between, own) in joints {
-            links.extend(between);
-            all_joints.extend(own);
+        for (added_links, added_joints) in joints {
+            links.extend(added_links);
+            all_joints.extend(added_joints);
         }
         Ok(Robot::new(links, all_joints)?.with_file_remarks(std::mem::take(&mut self.remarks)))
     }
 
     fn link(&mut self, element: &Element<'_>, name: &str) -> Result<Link, RobotFileError> {
-        let wanted = match self.elements {
+        let body_element = match self.elements {
             BodyElements::Collision => "collision",
             BodyElements::Visual => "visual",
         };
         let mut bodies = Vec::new();
         for shape in element.children(&mut self.remarks)? {
-            if shape.name() != wanted {
+            if shape.name() != body_element {
                 continue;
             }
-            let parts = shape.children(&mut self.remarks)?;
-            let pose = self.pose(&parts, &format!("link {name}"))?;
-            let geometry = required(&parts, "geometry")?;
+            let children = shape.children(&mut self.remarks)?;
+            let pose = self.pose(&children, &format!("link {name}"))?;
+            let geometry = required(&children, "geometry")?;
             let body = self.body(geometry)?;
             bodies.push(LinkBody { body, pose });
         }
@@ -137,18 +138,18 @@ impl<'r> UrdfReader<'r> {
         Ok(Arc::new(body))
     }
 
-    /// Converts a joint. One with several degrees of freedom becomes several joints with links between them.
+    /// Converts a joint. A joint with several degrees of freedom becomes a chain of joints, with links between them.
     fn joint(
         &mut self,
         element: &Element<'_>,
         name: &str,
     ) -> Result<(Vec<Link>, Vec<Joint>), RobotFileError> {
-        let parts = element.children(&mut self.remarks)?;
-        let origin = self.pose(&parts, &format!("joint {name}"))?;
+        let children = element.children(&mut self.remarks)?;
+        let origin = self.pose(&children, &format!("joint {name}"))?;
         let [parent, child] =
-            ["parent", "child"].map(|end| required(&parts, end)?.required("link"));
+            ["parent", "child"].map(|end| required(&children, end)?.required("link"));
         let (parent, child) = (parent?, child?);
-        let mimic = only(&parts, "mimic")?;
+        let mimic = only(&children, "mimic")?;
         let compound = |kind: CompoundKind| {
             if mimic.is_some() {
                 return Err(RobotFileError::CompoundMimic);
@@ -156,51 +157,51 @@ impl<'r> UrdfReader<'r> {
             Ok(kind.links_and_joints(name, [parent, child], origin)?)
         };
         let axis = || -> Result<[f64; 3], UrdfError> {
-            let Some(axis) = only(&parts, "axis")? else {
+            let Some(axis) = only(&children, "axis")? else {
                 return Ok([1.0, 0.0, 0.0]);
             };
             axis.required("xyz")?;
             Ok(axis.numbers("xyz")?.unwrap_or([f64::NAN; 3]))
         };
-        let moved = match element.required("type")? {
+        let geometry = match element.required("type")? {
             "floating" => return compound(CompoundKind::Floating),
             "spherical" => return compound(CompoundKind::Spherical),
             "planar" => return compound(CompoundKind::Planar { normal: axis()? }),
             "fixed" => trajectory::Joint::fixed(origin),
             "continuous" => trajectory::Joint::revolute(origin, axis()?)?,
             "revolute" => {
-                let [low, high] = self.limits(&parts)?;
+                let [low, high] = self.limits(&children)?;
                 let remark = [low, high].into_iter().find_map(Remark::remark_on_joint);
                 self.remarks
-                    .extend(remark.map(|own| CellRemark::on(format!("joint {name}"), own)));
+                    .extend(remark.map(|remark| CellRemark::on(format!("joint {name}"), remark)));
                 trajectory::Joint::revolute(origin, axis()?)?.with_limits(low..=high)
             }
             "prismatic" => {
-                let [low, high] = self.limits(&parts)?;
+                let [low, high] = self.limits(&children)?;
                 trajectory::Joint::prismatic(origin, axis()?)?.with_limits(low..=high)
             }
             _ => {
-                let wanted =
+                let joint_types =
                     "revolute, continuous, prismatic, fixed, floating, planar or spherical";
-                return Err(element.invalid("type", wanted).into());
+                return Err(element.invalid("type", joint_types).into());
             }
         };
         let joint = Joint {
             name: name.to_owned(),
             parent: parent.to_owned(),
             child: child.to_owned(),
-            geometry: moved,
+            geometry,
             position_rule: position_rule(mimic)?,
         };
         Ok((Vec::new(), vec![joint]))
     }
 
-    /// Reads the limits of a joint. Those of a mimic joint are ignored.
-    fn limits(&self, parts: &[Element<'_>]) -> Result<[f64; 2], UrdfError> {
-        let limit = match only(parts, "limit")? {
+    /// Reads the limits of a joint. The limits of a mimic joint are ignored.
+    fn limits(&self, children: &[Element<'_>]) -> Result<[f64; 2], UrdfError> {
+        let limit = match only(children, "limit")? {
             Some(limit) => limit,
-            None if only(parts, "mimic")?.is_some() => return Ok([0.0; 2]),
-            None => required(parts, "limit")?,
+            None if only(children, "mimic")?.is_some() => return Ok([0.0; 2]),
+            None => required(children, "limit")?,
         };
         if self.version >= Version::V1_2 {
             limit.required("lower")?;
@@ -211,10 +212,10 @@ impl<'r> UrdfReader<'r> {
         Ok([low, high])
     }
 
-    /// Reads the pose of a shape or joint. Roll, pitch and yaw are rotations about fixed axes: first x, then y, then
-    /// z.
-    fn pose(&mut self, parts: &[Element<'_>], of: &str) -> Result<Pose, RobotFileError> {
-        let Some(origin) = only(parts, "origin")? else {
+    /// Reads the pose of a shape or joint, for which `owner` names the link or joint in remarks. Roll, pitch and yaw
+    /// are rotations about fixed axes: first x, then y, then z.
+    fn pose(&mut self, children: &[Element<'_>], owner: &str) -> Result<Pose, RobotFileError> {
+        let Some(origin) = only(children, "origin")? else {
             return Ok(Pose::IDENTITY);
         };
         let position = origin.numbers("xyz")?.unwrap_or([0.0; 3]);
@@ -224,7 +225,7 @@ impl<'r> UrdfReader<'r> {
             (Some([roll, pitch, yaw]), None) => {
                 let remark = Remark::remark_on_roll_pitch_yaw([roll, pitch, yaw]);
                 self.remarks
-                    .extend(remark.map(|own| CellRemark::on(of, own)));
+                    .extend(remark.map(|remark| CellRemark::on(owner, remark)));
                 DQuat::from_euler(EulerRot::ZYX, yaw, pitch, roll)
             }
             (_, Some(_)) if self.version < Version::V1_1 => {

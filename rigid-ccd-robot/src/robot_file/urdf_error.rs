@@ -5,18 +5,20 @@
 #[non_exhaustive]
 pub enum UrdfError {
     /// The file contains elements or expressions that xacro has to expand first.
-    #[error("`{found}` is of xacro, which makes a URDF of it: run `xacro FILE.xacro > FILE.urdf`")]
+    #[error(
+        "`{text}` belongs to xacro, and this file is not a URDF yet: run `xacro FILE.xacro > FILE.urdf`"
+    )]
     Xacro {
         /// The element or the expression.
-        found: String,
+        text: String,
     },
     /// The version of URDF is unknown.
-    #[error("version=\"{version}\" of URDF is not known; 1.0, 1.1 and 1.2 are")]
+    #[error("version=\"{version}\" of URDF is not supported; 1.0, 1.1 and 1.2 are")]
     UnknownVersion {
-        /// The version that is given.
+        /// The version in the file.
         version: String,
     },
-    /// The root element is not that of a URDF.
+    /// The root element is not `robot`.
     #[error("the root element is `{element}`; a URDF has `robot`, an MJCF has `mujoco`")]
     NotARobot {
         /// The name of the root element.
@@ -27,7 +29,7 @@ pub enum UrdfError {
     UnknownElement {
         /// The name of the element.
         element: String,
-        /// The name of the element around it.
+        /// The name of its parent element.
         parent: String,
     },
     /// An element does not have an attribute of this name.
@@ -59,20 +61,20 @@ pub enum UrdfError {
         attribute: String,
     },
     /// An attribute has an invalid value.
-    #[error("{attribute}=\"{value}\" of an element `{element}` is not {wanted}")]
+    #[error("{attribute}=\"{value}\" of an element `{element}` is not {required}")]
     InvalidAttribute {
         /// The name of the element.
         element: String,
         /// The name of the attribute.
         attribute: String,
-        /// The given value.
+        /// The value in the file.
         value: String,
         /// The required kind of value.
-        wanted: String,
+        required: String,
     },
     /// An attribute needs a later version of URDF.
     #[error(
-        "{attribute} of an element `{element}` needs version=\"{version}\" of an element `robot`"
+        "{attribute} of an element `{element}` needs version=\"{version}\" in the element `robot`"
     )]
     LaterVersion {
         /// The name of the element.

@@ -1,4 +1,4 @@
-//! Divides a path into ranges in which all clearances are kept, ranges in which one is violated, and the rest.
+//! Divides a path into ranges where all clearances are kept, ranges where one is violated, and unverified ranges.
 
 use super::{CellSolver, Goal};
 use crate::error::PathError;
@@ -15,8 +15,8 @@ pub struct ClearanceRange {
     pub from: PathPoint,
     /// The end of the range, where the next range starts.
     pub to: PathPoint,
-    /// Kept if all pairs keep their clearances everywhere in the range. Violated if at every point some pair is too
-    /// near. Unverified if neither is proven.
+    /// Kept if all pairs keep their clearances at every point of the range. Violated if some pair is too near at every
+    /// point of the range. Unverified if neither is proven.
     pub verdict: ClearanceVerdict,
 }
 
@@ -26,9 +26,9 @@ pub struct RangeSettings {
     /// The shortest length of a range that is examined, in segments of the path. At least 1e-9. A shorter range
     /// without a proof is unverified.
     pub resolution: f64,
-    /// An upper bound of the deviation of link points from their places on the path: 0 if the robot follows the path
-    /// exactly. The loops of a mechanism may be closed at the configurations of the path only; the bound is then the
-    /// error of the interpolation between them.
+    /// An upper bound of the distance from a point of a link to its position on the path: 0 if the robot follows the path
+    /// exactly. If the loops of a mechanism are closed only at the configurations of the path, it is the largest error
+    /// of the interpolation between them.
     pub max_pose_error: f64,
 }
 
@@ -59,7 +59,7 @@ impl RangeSettings {
 }
 
 impl CellSolver<'_> {
-    /// Divides a path into ranges where all pairs keep their clearances, ranges where at least one is violated, and
+    /// Divides a path into ranges where all pairs keep their clearances, ranges where a pair violates its clearance, and
     /// unverified ranges. A pair without a clearance has to keep the margin of the settings plus paddings.
     ///
     /// # Guarantee

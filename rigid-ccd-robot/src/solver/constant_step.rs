@@ -37,7 +37,7 @@ impl ConstantStep {
             let velocity = motion.velocity() + 0.5 * fraction * acceleration;
             let curved = 0.125 * fraction * fraction * acceleration.length();
             let reach = body.bounding_radius() + center.length();
-            // Twice for the approximation over the step, and once for its start at the exact pose.
+            // Two bounds are for the approximation over the step, one for its start at the exact pose.
             let bounds = [
                 near.deviation_bound,
                 near.deviation_bound,

@@ -26,7 +26,7 @@ impl PathSection<'_> {
 
 /// The trajectory of a link over a section of a path, which takes one unit of time.
 ///
-/// Between two times it is approximated by joints at constant rates, with bounds of the joints' deviations.
+/// Between two times, joints at constant rates approximate the trajectory, with bounds of the joints' deviations.
 pub(crate) struct CurvedLink<'a> {
     pub(crate) pair_chain: &'a PairChain,
     pub(crate) section: PathSection<'a>,
@@ -52,7 +52,7 @@ impl Trajectory for CurvedLink<'_> {
 }
 
 impl CurvedLink<'_> {
-    /// Returns a value for each joint of the chain: that of `of_moving` for moving joints, 0 for fixed joints.
+    /// Returns a value for each joint of the chain: the result of `of_moving` for a moving joint, 0 for a fixed joint.
     fn values(&self, of_moving: impl Fn(usize) -> f64) -> SmallVec<[f64; INLINE_JOINT_COUNT]> {
         let joints = self.pair_chain.moving_joint_indices.iter();
         joints.map(|joint| joint.map_or(0.0, &of_moving)).collect()

@@ -1,9 +1,10 @@
 //! Bounds the displacements of all parts over an interval of a path.
 //!
-//! The joints between the base and a part move it. Consider a point of the part and its displacement relative to the
-//! frame after a joint. Relative to the frame before the joint, this vector is rotated, and the displacement by the
-//! joint itself is added: a chord about a revolute axis, or a distance along a prismatic axis, starting at the point's
-//! position at the interval's midpoint. So a bound only needs distances from joint axes at the midpoint.
+//! The joints between the base and a part move the part. Take the displacement of one of its points relative to the
+//! frame after a joint. Relative to the frame before the joint, this vector is rotated, which does not change its
+//! length, and the displacement by the joint itself is added: a chord about a revolute axis, or a distance along a
+//! prismatic axis. The chord starts at the point's position at the interval's midpoint. So a bound only needs the
+//! distances of points from joint axes at the midpoint.
 
 use crate::cell::part::HullPart;
 use crate::kinematics::Kinematics;
@@ -70,7 +71,7 @@ impl DisplacementBounds {
 
     /// Computes the bounds for an interval, given the frames at its midpoint. Within the interval, joint positions
     /// deviate from the midpoint by at most `deviations`. Points computed with the frames have errors of at most
-    /// `rounding`; this applies to the part's center, to the joint's origin and to its axis.
+    /// `rounding`. This is so for the part's center, the joint's origin and the joint's axis.
     #[inline(always)]
     pub(crate) fn update(
         &mut self,

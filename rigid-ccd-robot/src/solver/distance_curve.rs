@@ -23,11 +23,12 @@ const MAX_RANGE_COUNT: f64 = 1e6;
 
 impl<'c> CellSolver<'c> {
     /// Divides each segment of a path into 2^`halvings` equal ranges, and returns the least distance of any checked
-    /// pair in each. The lower bounds form a step function below the distance along the path. A path of one
-    /// configuration has one range.
+    /// pair in each. The lower bounds form a step function that is never above the distance along the path. A path of
+    /// one configuration has one range.
     ///
     /// # Guarantee
-    /// For each range that of [`closest_approach`](Self::closest_approach). A deadline applies to all ranges together.
+    /// Each range has the guarantee of [`closest_approach`](Self::closest_approach). A deadline applies to all ranges
+    /// together.
     ///
     /// # Errors
     /// [`PathError`], also for more than a million ranges.
@@ -72,7 +73,7 @@ impl<'c> CellSolver<'c> {
     }
 }
 
-/// Appends the parts of an interval after repeated halving, in order.
+/// Halves an interval repeatedly, and appends the resulting intervals in order.
 fn push_halves(interval: PathInterval, halvings: u32, intervals: &mut Vec<PathInterval>) {
     if halvings == 0 {
         intervals.push(interval);

@@ -32,7 +32,7 @@ impl PathSearch<'_> {
                 Break(()) => Ok(Break(())),
                 Continue(()) => self.check_nonconvex_candidate(pair, bodies, at),
             };
-            // A contact found earlier than this point makes this midpoint irrelevant.
+            // A contact before the midpoint makes the other pairs at the midpoint irrelevant.
             if !matches!(step, Ok(Continue(()))) || self.result.end <= at {
                 break;
             }
@@ -56,7 +56,7 @@ impl PathSearch<'_> {
         if goal == Goal::LeastDistance {
             return Ok(self.record_distance(&candidate, &answer.outcome));
         }
-        // If a limit leaves the pair undecided here, it stays a candidate.
+        // A pair that is undecided because of a limit stays a candidate.
         Ok(match answer.outcome.hit() {
             Ok(Some(_)) => {
                 let beyond = self.distance_beyond_margin(pair, &answer.outcome);
@@ -111,7 +111,7 @@ impl PathSearch<'_> {
             return self.decide_halves(&candidate, splits - 1);
         }
         if self.goal == Goal::LeastDistance {
-            // No pair can be nearer by more than the tolerance. Written so that a NaN is measured.
+            // The least distance so far is within the tolerance of 0. Written so that a NaN is measured.
             if self.result.distance_upper_bound - self.tolerance <= 0.0 {
                 return Ok(Break(()));
             }
@@ -181,7 +181,7 @@ impl PathSearch<'_> {
         (contact.upper() + rounding - pair.margin).next_up()
     }
 
-    /// Returns whether a candidate certainly stays farther apart than the nearest pair so far, less the tolerance.
+    /// Returns whether a candidate is proven to stay farther apart than the least distance so far minus the tolerance.
     fn is_no_nearer(&mut self, candidate: &EngineCandidate) -> Result<bool, Error> {
         let least = self.result.distance_upper_bound - self.tolerance;
         if !(least < f64::INFINITY) {
@@ -192,7 +192,7 @@ impl PathSearch<'_> {
         Ok(answer.outcome.clearance_verdict(required) == ClearanceVerdict::Kept)
     }
 
-    /// Records the bounds of a candidate's distance, if they lower those of the search.
+    /// Records the bounds of a candidate's distance, if they are lower than the bounds so far.
     fn record_distance(
         &mut self,
         candidate: &EngineCandidate,
@@ -201,7 +201,7 @@ impl PathSearch<'_> {
         if let Some(limit) = outcome.limit() {
             self.result.limit_reached = Some((limit, 0.0));
         }
-        // For bodies that exceed their shapes, the bounds may differ by more than the tolerance.
+        // If bodies exceed their shapes, both bounds may differ by more than the tolerance.
         let lower = outcome.lower() - self.allowance(candidate);
         self.result.lower = lesser(self.result.lower, lower);
         self.record_upper_bound(candidate, outcome);
@@ -221,8 +221,8 @@ impl PathSearch<'_> {
         }
     }
 
-    /// Bounds how much nearer a candidate may be than the engine reports: positions are rounded, and a period
-    /// represents later ones.
+    /// Bounds how much nearer a candidate may be than the engine reports, because positions are rounded and the searched
+    /// period represents later periods.
     fn allowance(&self, candidate: &EngineCandidate) -> f64 {
         2.0 * self.placement.rounding + self.drift(candidate)
     }

@@ -1,4 +1,4 @@
-//! Presents a pair of bodies to the engine: one body moves on its link's trajectory, the other one is static.
+//! Queries of the engine about two bodies: the first body moves relative to the second one, which is static.
 
 use super::Goal;
 use super::curved_link::{CurvedLink, PathSection};

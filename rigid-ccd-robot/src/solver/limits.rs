@@ -17,7 +17,7 @@ pub(crate) struct StopCondition {
     max_work: u64,
     /// The work of the current search so far.
     work: u64,
-    /// For a question of many searches, the work that is left for the current search and those that follow.
+    /// For a question of many searches, the work that is left for the current search and all later searches.
     work_left_for_question: u64,
     end: Option<Instant>,
     stop: Option<Arc<AtomicBool>>,
@@ -48,14 +48,14 @@ impl StopCondition {
         }
     }
 
-    /// Sets the work limit of a question that takes many searches of an interval: some budgets for each segment.
+    /// Sets the work limit of a question that searches an interval many times: some budgets for each segment.
     pub(crate) fn begin_searches(&mut self, interval: &PathInterval) {
         self.work_left_for_question = self.max_work_in(interval);
         self.work = 0;
     }
 
-    /// Sets the work limit of one search of an interval: some budgets for each segment, or what is left for the question
-    /// if that is less.
+    /// Sets the work limit of one search of an interval: some budgets for each segment, or the remaining work of the
+    /// question if it is less.
     pub(crate) fn begin_search(&mut self, interval: &PathInterval) {
         self.work_left_for_question = self.work_left_for_question.saturating_sub(self.work);
         self.max_work = self.max_work_in(interval).min(self.work_left_for_question);
@@ -79,7 +79,7 @@ impl StopCondition {
         self.work = self.work.saturating_add(work);
     }
 
-    /// Returns the budget of the next query: that of the settings, but not more than is left.
+    /// Returns the budget of the next query: the budget of the settings, or the remaining work if it is less.
     pub(crate) fn budget_of_query(&self) -> u64 {
         self.budget.min(self.work_left())
     }

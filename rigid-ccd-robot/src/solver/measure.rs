@@ -1,4 +1,4 @@
-//! Distance tests of two parts at the midpoint of an interval, and what they prove for the whole interval.
+//! Distance tests of two parts at the midpoint of an interval, which may prove something about the whole interval.
 
 use super::part_pairs::PartPair;
 use super::placement::Placement;
@@ -9,7 +9,7 @@ use ccd_distance_gjk::{TerminationBounds, Vertex, bound_distance};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::oracle::Frame;
 
-/// The distances that decide about a pair, at the midpoint of an interval.
+/// The distances with which the distance of a pair at the midpoint of an interval is compared.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Thresholds {
     /// The pair is free if it stays farther apart than this over the whole interval.
@@ -28,8 +28,8 @@ pub(crate) enum DistanceVerdict {
     Undecided(f64),
 }
 
-/// Tests a pair, as accurately as the thresholds require. With `skips_far`, a pair with a large displacement is not
-/// measured while its bounding boxes are disjoint.
+/// Measures a pair as accurately as the thresholds require. If `skips_far` is set, a pair with a large displacement is
+/// not measured if its bounding boxes are farther apart than `near_distance`.
 #[inline(always)]
 pub(crate) fn measure(
     cell: &Cell,

@@ -18,8 +18,7 @@ pub(crate) struct PartPair {
     pub(crate) margin: f64,
     /// The direction from A to B of the best separation so far; zero if there was none.
     pub(crate) axis: DVec3,
-    /// The distance at the midpoint of the last interval, divided by the distance that would have proved the pair
-    /// free.
+    /// The distance at the midpoint of the last interval, divided by the distance that the pair needed to be proven free.
     pub(crate) distance_to_proof_ratio: f64,
 }
 
@@ -123,7 +122,7 @@ impl<'c> PartPairs<'c> {
         self.update_margins();
     }
 
-    /// Returns the distance that is added to the margins of all pairs, an allowance for pose errors.
+    /// Returns the distance that is added to the margins of all pairs because of pose errors.
     pub(crate) fn margin_increase(&self) -> f64 {
         self.margin_increase
     }

@@ -1,11 +1,11 @@
 //! Finds periods of segments in which joints make many turns.
 //!
-//! In a segment at constant rates, let a joint turn by the angle `Δ`. After the fraction `p` of the segment it has
-//! nearly its former angle, up to `ε = |p Δ − 2π n|` for the nearest integer `n`; after `k` periods, up to `k ε`. Let
-//! this hold for all joints between two links. Then no point of one link is displaced by more than `Σ k ε ρ` relative
-//! to the other link, where `ρ` is the point's largest distance from a joint's axis. So a distance that a pair keeps
-//! in one period, it keeps in all periods up to this drift. The search then examines only one period of the pair and
-//! skips the rest of the segment.
+//! In a segment at constant rates, let a joint turn by the angle `Δ`. After the fraction `p` of the segment, the joint
+//! has its former angle again, except for `ε = |p Δ − 2π n|`, where `n` is the nearest integer. After `k` such periods
+//! the difference is `k ε`. Apply this to all joints between two links. Relative to one link, a point of the other link
+//! is then at most `Σ k ε ρ` away from its former position, where `ρ` is the largest distance of the point from a
+//! joint's axis. This is the *drift*. Distances in later periods differ from distances in the first one by at most the
+//! drift. So the search examines only one period of the pair and skips the rest of the segment.
 
 use crate::cell::rounding::U;
 use crate::kinematics::Kinematics;
@@ -22,7 +22,7 @@ const LEAST_TURNS: f64 = 2.0;
 pub(crate) struct Period {
     /// The length as a fraction of the segment, rounded up.
     pub(crate) length: f64,
-    /// An upper bound of the change of a distance between points of the same phase in two periods.
+    /// An upper bound of the difference between the distances at the same phase of two periods.
     pub(crate) drift: f64,
 }
 
@@ -30,8 +30,8 @@ pub(crate) struct Period {
 #[derive(Debug, Default)]
 pub(crate) struct Periods {
     frame_count: usize,
-    /// For each segment, the index of its first period; `None` for a segment without periods. Empty if the path has
-    /// none.
+    /// For each segment, the index of its first period; `None` for a segment without periods. Empty if no segment has
+    /// periods.
     first_by_segment: Vec<Option<usize>>,
     /// For each such segment and each pair of frames, their period if there is one.
     periods: Vec<Option<Period>>,
@@ -49,7 +49,7 @@ pub(crate) struct DriftLimit {
 }
 
 impl Periods {
-    /// Replaces the periods by those of a path.
+    /// Finds the periods of a path, and replaces the previous ones.
     pub(crate) fn set_path(
         &mut self,
         kinematics: &Kinematics,

@@ -46,10 +46,11 @@ pub(crate) struct PathSearch<'c> {
     pub(super) path: JointPath,
     pub(super) placement: Placement,
     pub(super) periods: Periods,
-    /// A stack of candidate pairs: those of the whole path, of its half, and so on down to the current interval.
+    /// A stack of candidate pairs: the candidates of the whole path, then of its current half, and so on down to the
+    /// current interval.
     pub(super) candidates: Vec<PartPair>,
-    /// Candidates with non-convex bodies whose hulls are near at the current midpoint, or nearer than the least
-    /// distance so far.
+    /// Candidates with non-convex bodies whose hulls are near each other at the current midpoint, or nearer than the
+    /// least distance so far.
     pub(super) nonconvex_candidates: Vec<PartPair>,
     /// For the current question, the pairs in contact at the start that are ignored while they separate.
     pub(super) start_contacts: Vec<StartContact>,
@@ -57,7 +58,7 @@ pub(crate) struct PathSearch<'c> {
     pub(super) engine_candidates: EngineCandidates,
     pub(super) solver: Solver,
     pub(super) settings: Settings,
-    /// The tolerance for the current path: that of the settings, or a larger one that rounding requires.
+    /// The tolerance for the current path: the tolerance of the settings, or a larger one if rounding errors require it.
     pub(super) tolerance: f64,
     // For the current question:
     pub(super) goal: Goal,
@@ -76,8 +77,8 @@ pub(crate) struct PathSearchResult {
     pub(crate) distance_upper_bound: f64,
     /// The search may ignore everything beyond this point. For the first contact, it is the earliest contact so far.
     pub(crate) end: f64,
-    /// The limit that ended the search. For the first contact, the point up to which the path is proven free;
-    /// otherwise 0 or the end of the searched part.
+    /// The limit that ended the search, and a point of the path: for the first contact, the point up to which the path is
+    /// proven free; otherwise 0 or the end of the searched part.
     pub(crate) limit_reached: Option<(Limit, f64)>,
     /// A lower bound of the distances that the engine measured, or 0 after a limit.
     pub(crate) lower: f64,
@@ -159,7 +160,7 @@ impl<'c> PathSearch<'c> {
             lower,
             ..
         } = self.result;
-        // The search drops pairs that stay farther apart than the upper bound, less the tolerance.
+        // The search drops pairs that stay farther apart than the upper bound minus the tolerance.
         let least = upper - self.tolerance - 4.0 * self.placement.rounding;
         (greater(lesser(least, lower), 0.0), upper)
     }
@@ -189,7 +190,7 @@ impl<'c> PathSearch<'c> {
         }
     }
 
-    /// Enlarges the bound of a contact's distance: the contact is reported at a point that is rounded down.
+    /// Enlarges the bound of a contact's distance, because the contact is reported at a point that is rounded down.
     pub(crate) fn add_rounding_of_contact_point(&mut self, (at, pair): (f64, PartPair)) {
         if self.segment_count() == 0 {
             return;
@@ -215,7 +216,7 @@ impl<'c> PathSearch<'c> {
         self.compares_any.clone()?;
         self.cell.check_plane_reach(self.path.magnitudes())?;
         self.placement.begin(self.cell, &self.path);
-        // Margins are enlarged by half of this, and measured distances have errors of at most the other half.
+        // One half is added to margins. The other half bounds the errors of measured distances.
         let rounding = 4.0 * self.placement.rounding;
         self.tolerance = greater(self.settings.tolerance, rounding);
         let (kinematics, parts) = (self.cell.kinematics(), self.cell.parts());
@@ -262,8 +263,8 @@ impl<'c> PathSearch<'c> {
         &self.placement
     }
 
-    /// Searches an interval for the candidates `among`, or for all candidates if it is `None`. Leaves those that stay
-    /// undecided to the engine.
+    /// Searches an interval for the candidates with the indices `among`, or for all candidates if it is `None`. Leaves
+    /// candidates that stay undecided to the engine.
     pub(super) fn search(
         &mut self,
         interval: PathInterval,
@@ -316,8 +317,8 @@ impl<'c> PathSearch<'c> {
         Break(())
     }
 
-    /// Tests the candidates at the midpoint of an interval, and appends those that stay undecided. Returns the index
-    /// of the first of these.
+    /// Tests the candidates at the midpoint of an interval, and appends the undecided ones to the stack. Returns the
+    /// index of the first appended candidate.
     #[inline(always)]
     fn measure_candidates(
         &mut self,
@@ -399,7 +400,7 @@ impl<'c> PathSearch<'c> {
         })
     }
 
-    /// Bounds how much a candidate's distances in its searched period differ from those in later periods.
+    /// Bounds the difference between a candidate's distances in its searched period and in later periods.
     pub(super) fn drift(&self, candidate: &EngineCandidate) -> f64 {
         if self.periods.is_empty() {
             return 0.0;
@@ -485,8 +486,8 @@ impl<'c> PathSearch<'c> {
         self.result.nearest = Some((at, *pair));
     }
 
-    /// Records a contact of a pair, unless an earlier one is known. Its distance is at most margin + tolerance, or
-    /// margin + `distance_beyond_margin` if that is more. Ends the search, unless it looks for the first contact.
+    /// Records a contact of a pair, unless an earlier contact is known. The pair's distance is at most margin + tolerance
+    /// or margin + `distance_beyond_margin`, whichever is larger. Ends the search, unless the goal is the first contact.
     pub(super) fn record_contact(
         &mut self,
         pair: &PartPair,

@@ -1,6 +1,6 @@
 //! Proves that some pair is nearer than its margin everywhere in an interval.
 //!
-//! This is so if the bodies are nearer at the midpoint by more than their displacements.
+//! The proof: at the midpoint, the distance of both bodies is less than the margin minus their displacement.
 
 use super::Goal;
 use super::measure::{initial_direction, minkowski_support_vertex};
@@ -16,9 +16,9 @@ use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Error, Settings};
 
 impl PathSearch<'_> {
-    /// Returns whether some pair is certainly nearer than its margin everywhere in an interval. The margin excludes
-    /// `PartPairs::margin_increase`. The result holds even if the pair's true distance is larger than the computed one
-    /// by up to this increase.
+    /// Returns whether some pair is proven to be nearer than its margin everywhere in an interval. This margin does not
+    /// include `PartPairs::margin_increase`. The proof holds even if the true distance is larger than the computed
+    /// distance by up to this increase.
     pub(super) fn is_margin_violated(&mut self, interval: &PathInterval) -> Result<bool, Error> {
         let parts = self.cell.parts();
         self.goal = Goal::AnyContact;
@@ -41,8 +41,8 @@ impl PathSearch<'_> {
         is_violated
     }
 
-    /// Returns the same for the candidate pairs of two bodies. Pairs of parts that are no candidates are not near each
-    /// other.
+    /// Returns whether two bodies are proven to be nearer than their margin everywhere in the interval. `near` contains
+    /// their candidate pairs. Other pairs of their parts are not near each other.
     fn are_bodies_nearer(&mut self, near: &[PartPair]) -> Result<bool, Error> {
         let pair = &near[0];
         let displacements = near.iter().map(|pair| pair.displacement(&self.placement));
@@ -75,8 +75,8 @@ impl PathSearch<'_> {
     }
 }
 
-/// Returns whether two convex parts are nearer than a distance at the midpoint. If the distance is negative, they must
-/// overlap by that depth in every direction.
+/// Returns whether two convex parts are nearer than a distance at the midpoint. A negative distance requires that they
+/// overlap by this depth in every direction.
 pub(crate) fn are_convex_parts_nearer(
     cell: &Cell,
     placement: &Placement,

@@ -2,20 +2,20 @@ use super::*;
 use ccd_core::glam::DVec3;
 
 fn ball(radius: f64) -> ShapeGeometry {
-    let mut form = ShapeGeometry::EMPTY;
-    form.push_hull_of_points([DVec3::ZERO], radius, 0);
-    form
+    let mut geometry = ShapeGeometry::EMPTY;
+    geometry.push_hull_of_points([DVec3::ZERO], radius, 0);
+    geometry
 }
 
 fn triangle_strip_geometry(triangles: usize, last: f64) -> ShapeGeometry {
-    let mut form = ShapeGeometry::EMPTY;
+    let mut geometry = ShapeGeometry::EMPTY;
     for k in 0..triangles {
         let x = k as f64;
         let y = if k + 1 == triangles { last } else { 1.0 };
         let corners = [DVec3::X * x, DVec3::X * (x + 1.0), DVec3::new(x, y, 0.0)];
-        form.push_triangles(corners, &[[0, 1, 2]], [k as u32]);
+        geometry.push_triangles(corners, &[[0, 1, 2]], [k as u32]);
     }
-    form
+    geometry
 }
 
 #[test]

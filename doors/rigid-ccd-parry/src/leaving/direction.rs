@@ -11,20 +11,20 @@ const MAX_EDGE_CROSS_PRODUCTS: usize = 4096;
 
 /// Returns the unit vector from the first piece to the second along which they overlap least.
 ///
-/// For rounded pieces whose cores are apart it is the direction between these. Otherwise it is the best of the normals
-/// of facets, the products of edges, and the direction between the middles. Where pieces have too many edges for all
-/// products, a slightly worse one may come out.
+/// For rounded pieces whose hulls before rounding are disjoint, it is the direction between these hulls. Otherwise it is
+/// the best of the facet normals, the cross products of edges, and the direction between the mean points. If pieces have
+/// too many edges, cross products are not tried, and the overlap may be slightly larger than the least one.
 pub(super) fn least_overlap_direction(
     pieces: [Piece<'_>; 2],
     poses: [Pose; 2],
     solver: &mut Solver,
 ) -> Option<DVec3> {
-    if let Some(between) = direction_between_ungrown_hulls(pieces, poses, solver) {
-        return Some(between);
+    if let Some(direction) = direction_between_ungrown_hulls(pieces, poses, solver) {
+        return Some(direction);
     }
     let [a, b] = [0, 1].map(|k| PlacedPiece::new(&pieces[k], &poses[k]));
     let mut best: Option<(f64, DVec3)> = None;
-    let mut consider = |axis: DVec3| {
+    let mut try_direction = |axis: DVec3| {
         let Some(axis) = unit(axis) else { return };
         for axis in [axis, -axis] {
             let depth = a.extent_along(axis) + b.extent_along(-axis);
@@ -33,16 +33,16 @@ pub(super) fn least_overlap_direction(
             }
         }
     };
-    consider(b.mean_point() - a.mean_point());
+    try_direction(b.mean_point() - a.mean_point());
     a.face_normals
         .iter()
         .chain(&b.face_normals)
-        .for_each(|normal| consider(*normal));
+        .for_each(|normal| try_direction(*normal));
     if a.edges.len() * b.edges.len() <= MAX_EDGE_CROSS_PRODUCTS {
         for edge in &a.edges {
             b.edges
                 .iter()
-                .for_each(|other| consider(edge.cross(*other)));
+                .for_each(|other| try_direction(edge.cross(*other)));
         }
     }
     best.map(|(_, axis)| axis)
@@ -67,8 +67,8 @@ fn direction_between_ungrown_hulls(
     };
     let [a, b] = pieces.map(core);
     let (a, b) = (a?, b?);
-    let found = solver.distance((&a, poses[0]), (&b, poses[1])).ok()?;
-    match found.outcome {
+    let answer = solver.distance((&a, poses[0]), (&b, poses[1])).ok()?;
+    match answer.outcome {
         Outcome::LeastDistance { lower, contact, .. } if lower > 0.0 => {
             Some(contact.separation.normal)
         }
@@ -91,8 +91,8 @@ impl PlacedPiece {
             .iter()
             .map(|p| pose.transform_point(*p))
             .collect();
-        let at = |corner: u32| points[corner as usize];
-        // The corners of a piece without known facets are taken for one loop.
+        let point = |corner: u32| points[corner as usize];
+        // Without known facets, all corners are treated as one loop.
         let whole: Vec<u32> = (0..points.len() as u32).collect();
         let loops: Vec<&[u32]> = if piece.facets.is_empty() {
             vec![&whole]
@@ -101,13 +101,13 @@ impl PlacedPiece {
         };
         let (mut normals, mut edges) = (Vec::new(), Vec::new());
         for corners in loops {
-            let sides =
-                (0..corners.len()).map(|k| at(corners[(k + 1) % corners.len()]) - at(corners[k]));
+            let sides = (0..corners.len())
+                .map(|k| point(corners[(k + 1) % corners.len()]) - point(corners[k]));
             edges.extend(sides.filter(|side| length(*side) > 0.0));
             if let [first, middle @ .., last] = corners
                 && let [second, ..] = middle
             {
-                normals.push((at(*second) - at(*first)).cross(at(*last) - at(*first)));
+                normals.push((point(*second) - point(*first)).cross(point(*last) - point(*first)));
             }
         }
         PlacedPiece {
@@ -120,8 +120,8 @@ impl PlacedPiece {
 
     /// Returns the extent of the piece along a unit vector, measured from the origin.
     fn extent_along(&self, axis: DVec3) -> f64 {
-        let heights = self.points.iter().map(|p| axis.dot(*p));
-        heights.fold(f64::NEG_INFINITY, crate::order::greater) + self.rounding_radius
+        let coordinates = self.points.iter().map(|p| axis.dot(*p));
+        coordinates.fold(f64::NEG_INFINITY, crate::order::greater) + self.rounding_radius
     }
 
     fn mean_point(&self) -> DVec3 {

@@ -26,20 +26,20 @@ pub(super) fn nonlinear_cast_from_arguments(
 /// Converts the arguments of `cast_shapes` to a cast; `None` if the maximum time is negative.
 pub(super) fn linear_cast_from_arguments(
     bodies: [(&Pose, Vector); 2],
-    asked: ShapeCastOptions,
+    parry_options: ShapeCastOptions,
     options: &Options,
 ) -> Result<Option<Cast>, CastError> {
-    let slides = |(at, velocity): (&Pose, Vector)| {
-        Motion::new(pose_from_parry(at)?, point_from_parry(velocity), [0.0; 3])
+    let translation = |(pose, velocity): (&Pose, Vector)| {
+        Motion::new(pose_from_parry(pose)?, point_from_parry(velocity), [0.0; 3])
     };
-    let motions = CastError::motions_or_error(bodies.map(slides))?;
-    let interval = [0.0, f64::from(asked.max_time_of_impact)];
-    let target = f64::from(asked.target_distance);
+    let motions = CastError::motions_or_error(bodies.map(translation))?;
+    let interval = [0.0, f64::from(parry_options.max_time_of_impact)];
+    let target = f64::from(parry_options.target_distance);
     cast_of_motions(
         motions,
         interval,
         target,
-        asked.stop_at_penetration,
+        parry_options.stop_at_penetration,
         options,
     )
 }
@@ -51,8 +51,8 @@ pub(super) fn run_cast(
     solver: &mut Solver,
 ) -> Result<Option<ShapeCastHit>, CastError> {
     let [a, b] = CastError::shapes_or_error(shapes)?;
-    let found = cast.map(|cast| cast.answer([&a, &b], solver)).transpose()?;
-    Ok(found.flatten().as_ref().map(hit))
+    let hit_of_cast = cast.map(|cast| cast.answer([&a, &b], solver)).transpose()?;
+    Ok(hit_of_cast.flatten().as_ref().map(hit))
 }
 
 fn cast_of_motions(
@@ -63,7 +63,7 @@ fn cast_of_motions(
     options: &Options,
 ) -> Result<Option<Cast>, CastError> {
     let interval = Interval::new(start, end)?;
-    let start = if stop_at_penetration {
+    let start_policy = if stop_at_penetration {
         StartPolicy::Report
     } else {
         StartPolicy::Leave
@@ -72,7 +72,7 @@ fn cast_of_motions(
         motions,
         interval,
         target,
-        start_policy: start,
+        start_policy,
         options: *options,
         default_tolerance: CONTACT,
     }))

@@ -15,9 +15,9 @@ use std::sync::Arc;
 
 /// A caster that caches the bodies of shapes, for simulations and games that cast in each frame.
 ///
-/// A body is known by the address of its [`SharedShape`]. The caster holds a clone of it: while it does, the address
-/// belongs to that shape, and `SharedShape::make_mut` makes a copy at another one. A shape that is let go by everyone
-/// else is let go here, too, once the number of bodies has doubled.
+/// A body is found by the address of its [`SharedShape`], of which the caster holds a clone. The clone ensures that the
+/// address stays in use for this shape, and that `SharedShape::make_mut` makes a copy at another address. Whenever the
+/// number of bodies has doubled, the caster drops the shapes that nothing else uses.
 #[doc = ""]
 #[doc = "```"]
 #[doc = concat!("use ", parry!(), "::math::{Pose, Vector};")]
@@ -81,7 +81,7 @@ impl Caster {
     /// Finds when two shapes in linear motion first touch: `query::cast_shapes`, with the same arguments.
     ///
     /// # Guarantee
-    /// That of [`Caster::cast_shapes_nonlinear`].
+    /// The same as for [`Caster::cast_shapes_nonlinear`].
     ///
     /// # Errors
     /// [`CastError`].
@@ -101,8 +101,8 @@ impl Caster {
         self.answer(cast, [g1, g2])
     }
 
-    /// Records a cast as files for the command `ccd`, which can answer other questions about it and show it. The
-    /// arguments are those of [`Caster::cast_shapes_nonlinear`].
+    /// Records a cast for the command `ccd`, which can answer other questions about it and display it. The arguments are
+    /// the same as for [`Caster::cast_shapes_nonlinear`].
     ///
     /// # Errors
     /// [`CastError`]; [`CastError::EmptyInterval`] for an end before the start.
@@ -167,10 +167,10 @@ impl Caster {
     }
 
     fn prepared_shape(&mut self, shape: &SharedShape) -> Result<PreparedShape, ShapeError> {
-        if let Some((_, kept)) = self.shapes.get(&shape_address(shape)) {
-            return Ok(kept.clone());
+        if let Some((_, cached)) = self.shapes.get(&shape_address(shape)) {
+            return Ok(cached.clone());
         }
-        let ready = match shape.as_typed_shape() {
+        let prepared = match shape.as_typed_shape() {
             TypedShape::HalfSpace(plane) => PreparedShape::HalfSpace(half_space(plane)?),
             _ => PreparedShape::Body(Arc::new(body(&**shape, &self.options)?)),
         };
@@ -178,8 +178,8 @@ impl Caster {
             self.remove_unused_bodies();
         }
         self.shapes
-            .insert(shape_address(shape), (shape.clone(), ready.clone()));
-        Ok(ready)
+            .insert(shape_address(shape), (shape.clone(), prepared.clone()));
+        Ok(prepared)
     }
 
     fn answer(
@@ -192,7 +192,7 @@ impl Caster {
     }
 }
 
-/// The number of cached bodies below which unused ones are not searched for.
+/// Unused bodies are removed only if the cache has at least this number of bodies.
 const MIN_BODIES_FOR_REMOVAL: usize = 32;
 
 fn shape_address(shape: &SharedShape) -> usize {

@@ -18,11 +18,11 @@ use std::cell::Cell;
 /// documentation](crate) for what each argument means.
 ///
 /// # Errors
-/// `Unsupported`, for what [`try_cast_shapes_nonlinear`] tells about.
+/// `Unsupported`; [`try_cast_shapes_nonlinear`] returns the reason.
 ///
 /// # Complexity
-/// Each call goes over all numbers of both shapes, to find their bodies among those of earlier calls of the thread. For
-/// large meshes use a [`Caster`](super::Caster).
+/// Each call compares all numbers of both shapes with the shapes of earlier calls of the thread, to find their bodies in
+/// a cache. For large meshes use a [`Caster`](super::Caster).
 #[doc = ""]
 #[doc = "```"]
 #[doc = concat!("use ", parry!(), "::math::{Pose, Vector};")]
@@ -53,7 +53,8 @@ pub fn cast_shapes_nonlinear(
         .map_err(|_| Unsupported)
 }
 
-/// Like [`cast_shapes_nonlinear`], but an error says why there is no answer; `times` are the start and the end.
+/// Finds when two moving shapes first touch, like [`cast_shapes_nonlinear`]. The error says why there is no answer.
+/// `times` are the start and the end.
 ///
 /// # Errors
 /// [`CastError`].
@@ -74,13 +75,13 @@ pub fn try_cast_shapes_nonlinear(
 /// Finds when two shapes in linear motion first touch: parry's `query::cast_shapes`, but never late.
 ///
 /// # Guarantee
-/// That of [`cast_shapes_nonlinear`].
+/// The same as for [`cast_shapes_nonlinear`].
 ///
 /// # Errors
-/// `Unsupported`, for what [`try_cast_shapes`] tells about.
+/// `Unsupported`; [`try_cast_shapes`] returns the reason.
 ///
 /// # Complexity
-/// That of [`cast_shapes_nonlinear`].
+/// The same as for [`cast_shapes_nonlinear`].
 #[doc = ""]
 #[doc = "```"]
 #[doc = concat!("use ", parry!(), "::math::{Pose, Vector};")]
@@ -107,7 +108,7 @@ pub fn cast_shapes(
     try_cast_shapes((pos1, vel1, g1), (pos2, vel2, g2), options).map_err(|_| Unsupported)
 }
 
-/// Like [`cast_shapes`], but an error says why there is no answer; each shape comes with its pose and velocity.
+/// Finds when two shapes in linear motion first touch, like [`cast_shapes`]. The error says why there is no answer.
 ///
 /// # Errors
 /// [`CastError`].
@@ -134,13 +135,13 @@ thread_local! {
 }
 
 fn answer(cast: Option<Cast>, shapes: [&dyn Shape; 2]) -> Result<Option<ShapeCastHit>, CastError> {
-    // The memory is gone while its thread ends.
+    // The memory is not available while its thread ends.
     let memory = THREAD_MEMORY.try_with(Cell::take).ok().flatten();
     let mut memory = memory.unwrap_or_default();
     let shapes = shapes.map(|shape| memory.prepared_shape(shape));
-    let found = ask::run_cast(cast, shapes, &mut memory.solver);
-    let _ = THREAD_MEMORY.try_with(|place| place.set(Some(memory)));
-    found
+    let result = ask::run_cast(cast, shapes, &mut memory.solver);
+    let _ = THREAD_MEMORY.try_with(|stored| stored.set(Some(memory)));
+    result
 }
 
 impl ThreadMemory {
@@ -148,8 +149,8 @@ impl ThreadMemory {
         match shape.as_typed_shape() {
             TypedShape::HalfSpace(plane) => half_space(plane).map(PreparedShape::HalfSpace),
             _ => {
-                let form = shape_geometry(shape, &Options::default())?;
-                self.body_cache.body(form).map(PreparedShape::Body)
+                let geometry = shape_geometry(shape, &Options::default())?;
+                self.body_cache.body(geometry).map(PreparedShape::Body)
             }
         }
     }

@@ -7,9 +7,9 @@ use ccd_core::{InputError, Motion, Pose};
 
 /// Converts parry's motion of a body to double precision. The path stays exactly the same.
 ///
-/// parry's motion turns about `local_center`, a point in the shape's frame, which moves by `linvel`; `angvel` is along
-/// the world's axes. A [`Motion`] about that center is the same. Its orientation is that of the quaternion made a unit
-/// in double precision, where parry's own arithmetic scales a shape by the square of the quaternion's length.
+/// parry's motion rotates about `local_center`, a point in the shape's frame that moves with the velocity `linvel`;
+/// `angvel` is in the world frame. A [`Motion`] about this center is the same motion. Quaternions are normalised in
+/// double precision. parry's own arithmetic scales a shape by the square of the quaternion's length.
 ///
 /// # Errors
 /// [`InputError::NotFinite`], [`InputError::ZeroQuaternion`].
@@ -55,11 +55,11 @@ pub(super) fn vector(v: DVec3) -> Vector {
 
 /// Converts a time to parry's precision, rounded down.
 pub(super) fn time(time: f64) -> Real {
-    let near = time as Real;
-    if f64::from(near) > time {
-        near.next_down()
+    let nearest = time as Real;
+    if f64::from(nearest) > time {
+        nearest.next_down()
     } else {
-        near
+        nearest
     }
 }
 

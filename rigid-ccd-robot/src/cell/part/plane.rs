@@ -13,7 +13,7 @@ pub(crate) struct Plane {
     /// The unit normal, which points out of the half-space.
     normal: DVec3,
     /// The signed distance of the plane from the origin, along the normal.
-    height: f64,
+    offset: f64,
 }
 
 impl Plane {
@@ -22,15 +22,15 @@ impl Plane {
         let normal = pose.rotation() * DVec3::Z;
         Plane {
             normal,
-            height: normal.dot(pose.translation()),
+            offset: normal.dot(pose.translation()),
         }
     }
 
-    /// Returns the height of a part's lowest corner above the plane, for the part's frame at `frame`.
+    /// Returns the signed distance of a part's lowest corner above the plane, for the part's frame at `frame`.
     #[inline(always)]
     pub(crate) fn lowest_corner_height(&self, part: &HullPart, frame: &Frame) -> f64 {
         let (_, corner) = part.extremal_corner(frame.inverse_transform_vector(-self.normal));
-        self.normal.dot(frame.transform_point(corner)) - self.height
+        self.normal.dot(frame.transform_point(corner)) - self.offset
     }
 
     /// Returns the distance of a part's corners from the half-space, for the part's frame at `frame`.
@@ -44,11 +44,11 @@ impl Plane {
         }
     }
 
-    /// Returns a lower bound of the height of a part above the plane, from its bounding box. The part's frame is at
-    /// `frame`, and its center at `center` in the base.
+    /// Returns a lower bound of the signed distance of a part above the plane, from its bounding box. The part's frame
+    /// is at `frame`, and its center at `center` in the base frame.
     #[inline(always)]
     pub(crate) fn height_of(&self, part: &HullPart, frame: &Frame, center: DVec3) -> f64 {
-        let across = frame.inverse_transform_vector(self.normal).abs();
-        self.normal.dot(center) - self.height - across.dot(part.half_extents)
+        let normal_components = frame.inverse_transform_vector(self.normal).abs();
+        self.normal.dot(center) - self.offset - normal_components.dot(part.half_extents)
     }
 }

@@ -21,22 +21,17 @@ fn no_position_in_a_box_is_nearer_than_its_bounds() {
         for links in links {
             let pair = LinkPair::new(&cell, &measurer.placement, links).unwrap();
             let size = [0.003, 0.05, 0.3, 1.5][random.random_range(0..4)];
-            let ranges = pair
-                .joints
-                .all_positions
-                .ranges()
-                .iter()
-                .map(|&[low, high]| {
-                    let middle = random.random_range(low..=high);
-                    let half = size * random.random_range(0.0..1.0);
-                    [middle - half, middle + half]
-                });
+            let ranges = pair.joints.all_positions.ranges.iter().map(|&[low, high]| {
+                let middle = random.random_range(low..=high);
+                let half = size * random.random_range(0.0..1.0);
+                [middle - half, middle + half]
+            });
             let joint_box = JointBox::new(ranges.collect());
             let Some([gap, displacement, first_order]) = measurer.bounds(&pair, &joint_box) else {
                 continue;
             };
             let samples = (0..40).map(|_| {
-                let ranges = joint_box.ranges().iter();
+                let ranges = joint_box.ranges.iter();
                 let positions = ranges.map(|&[low, high]| match random.random_range(0..3) {
                     0 => low,
                     1 => high,

@@ -27,8 +27,8 @@ pub(super) struct MeshAsset {
 /// The source of a mesh's triangles.
 pub(super) enum MeshSource {
     File(String),
-    /// The vertices and triangles are in the model. Without triangles, the mesh is the hull of the vertices.
-    Given {
+    /// The model contains the vertices and triangles. Without triangles, the mesh is the hull of the vertices.
+    InModel {
         vertices: Vec<DVec3>,
         faces: Vec<[u32; 3]>,
     },
@@ -44,70 +44,73 @@ pub(super) fn read_assets(root: &Element, classes: &Classes) -> Result<Assets, M
         height_fields: HashMap::new(),
     };
     for element in children_of_sections(root, "asset") {
-        match element.name.as_str() {
-            "mesh" | "hfield" => {}
-            // Images and decorations.
-            "material" | "skin" | "texture" => continue,
-            // A model that other models may attach. `attach` itself is refused elsewhere.
-            "model" => continue,
-            _ => return Err(element.unknown_in("asset")),
+        // Other assets are images, decorations, and models for `attach`, which is not supported.
+        if !["mesh", "hfield"].contains(&element.name.as_str()) {
+            continue;
         }
-        let own = classes.merged(element, None)?;
-        let file = own.name("file");
-        let stem = file.and_then(|file| Path::new(file).file_stem());
-        let stem = stem.and_then(|stem| stem.to_str());
-        let Some(name) = own.name("name").or(stem) else {
-            return Err(own.invalid("name"));
+        let attributes = classes.merged(element, None)?;
+        let file = attributes.name("file");
+        let file_stem = file.and_then(|file| Path::new(file).file_stem());
+        let file_stem = file_stem.and_then(|stem| stem.to_str());
+        let Some(name) = attributes.name("name").or(file_stem) else {
+            return Err(attributes.invalid("name"));
         };
         names.add(&element.name, Some(name))?;
         if element.name == "hfield" {
-            assets.height_fields.insert(name.to_owned(), own);
+            assets.height_fields.insert(name.to_owned(), attributes);
             continue;
         }
-        let scale = own.array("scale")?.map_or(DVec3::ONE, DVec3::from_array);
-        let at = own.array("refpos")?.map_or(DVec3::ZERO, DVec3::from_array);
-        let rotation = own.quaternion("refquat")?.unwrap_or(DQuat::IDENTITY);
-        let reference = Pose::new(at, rotation);
-        let back = reference.map_err(|_| own.invalid("refpos"))?.inverse();
-        let back = DAffine3::from_rotation_translation(back.rotation(), back.translation());
+        let scale = attributes
+            .array("scale")?
+            .map_or(DVec3::ONE, DVec3::from_array);
+        let position = attributes
+            .array("refpos")?
+            .map_or(DVec3::ZERO, DVec3::from_array);
+        let rotation = attributes.quaternion("refquat")?.unwrap_or(DQuat::IDENTITY);
+        let reference_pose = Pose::new(position, rotation);
+        let to_origin = reference_pose
+            .map_err(|_| attributes.invalid("refpos"))?
+            .inverse();
+        let to_origin =
+            DAffine3::from_rotation_translation(to_origin.rotation(), to_origin.translation());
         let asset = MeshAsset {
-            source: mesh_source(&own)?,
-            map: DAffine3::from_scale(scale) * back,
+            source: mesh_source(&attributes)?,
+            map: DAffine3::from_scale(scale) * to_origin,
         };
         assets.meshes.insert(name.to_owned(), asset);
     }
     Ok(assets)
 }
 
-fn mesh_source(own: &Attributes) -> Result<MeshSource, MjcfError> {
-    let vertices = own.numbers("vertex")?;
-    Ok(match (own.name("file"), vertices) {
+fn mesh_source(attributes: &Attributes) -> Result<MeshSource, MjcfError> {
+    let vertices = attributes.numbers("vertex")?;
+    Ok(match (attributes.name("file"), vertices) {
         (Some(file), None) => MeshSource::File(file.to_owned()),
         (None, Some(coordinates)) => {
             let (points, rest) = coordinates.as_chunks::<3>();
             if !rest.is_empty() {
-                return Err(own.invalid("vertex"));
+                return Err(attributes.invalid("vertex"));
             }
-            MeshSource::Given {
+            MeshSource::InModel {
                 vertices: points.iter().copied().map(DVec3::from_array).collect(),
-                faces: faces(own)?,
+                faces: faces(attributes)?,
             }
         }
-        (None, None) if own.get("builtin").is_some() => MeshSource::Builtin,
-        (None, None) => return Err(own.invalid("file")),
-        (Some(_), Some(_)) => return Err(own.invalid("vertex")),
+        (None, None) if attributes.get("builtin").is_some() => MeshSource::Builtin,
+        (None, None) => return Err(attributes.invalid("file")),
+        (Some(_), Some(_)) => return Err(attributes.invalid("vertex")),
     })
 }
 
-fn faces(own: &Attributes) -> Result<Vec<[u32; 3]>, MjcfError> {
-    let text = own.get("face").unwrap_or("");
+fn faces(attributes: &Attributes) -> Result<Vec<[u32; 3]>, MjcfError> {
+    let text = attributes.get("face").unwrap_or("");
     let corners = text
         .split_ascii_whitespace()
         .map(|corner| corner.parse().ok());
     let corners: Option<Vec<u32>> = corners.collect();
-    let corners = corners.ok_or_else(|| own.invalid("face"))?;
+    let corners = corners.ok_or_else(|| attributes.invalid("face"))?;
     match corners.as_chunks::<3>() {
         (faces, []) => Ok(faces.to_vec()),
-        _ => Err(own.invalid("face")),
+        _ => Err(attributes.invalid("face")),
     }
 }

@@ -14,8 +14,8 @@ pub(super) const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxi
 const NUMBERS: &str = "axis axisangle conaffinity contype count elevation euler face fromto group margin ncol nrow o_margin \
     offset polycoef pos quat range ref refpos refquat scale size xyaxes zaxis";
 
-/// The lengths of vectors that MuJoCo accepts as directions.
-const LENGTHS_WITH_DIRECTION: RangeInclusive<f64> = 1e-10..=1e100;
+/// The lengths of vectors and quaternions that MuJoCo accepts.
+const ACCEPTED_LENGTHS: RangeInclusive<f64> = 1e-10..=1e100;
 
 /// The attributes of an element, by name.
 #[derive(Clone, Debug, Default)]
@@ -28,37 +28,37 @@ pub(super) struct Attributes {
 impl Attributes {
     /// Reads the attributes of an element. Empty numeric attributes are left out.
     pub(super) fn read(node: Node<'_, '_>) -> Self {
-        let is_given = |own: &Attribute<'_, '_>| {
-            let is_empty = own.value().trim_ascii().is_empty();
-            !(is_empty && NUMBERS.split(' ').any(|number| number == own.name()))
+        let is_present = |attribute: &Attribute<'_, '_>| {
+            let is_empty = attribute.value().trim_ascii().is_empty();
+            !(is_empty && NUMBERS.split(' ').any(|number| number == attribute.name()))
         };
-        let values = node.attributes().filter(is_given);
+        let values = node.attributes().filter(is_present);
         Attributes {
             element: node.tag_name().name().to_owned(),
             values: values
-                .map(|own| (own.name().to_owned(), own.value().to_owned()))
+                .map(|attribute| (attribute.name().to_owned(), attribute.value().to_owned()))
                 .collect(),
         }
     }
 
-    /// Merges these attributes over those of a class. A shorter `size` replaces only the first numbers of the class's
-    /// `size`.
+    /// Returns the attributes of a class, with these attributes added and replacing the class's. A shorter `size`
+    /// replaces only the first numbers of the class's `size`.
     pub(super) fn over(&self, class: &Attributes) -> Result<Self, MjcfError> {
         let mut values = class.values.clone();
-        let is_own = |name: &&str| self.values.contains_key(*name);
-        if let Some(own) = ORIENTATIONS.into_iter().find(is_own) {
+        let is_specified = |name: &&str| self.values.contains_key(*name);
+        if let Some(name) = ORIENTATIONS.into_iter().find(is_specified) {
             for other in ORIENTATIONS {
-                // MuJoCo lets any rotation replace a quaternion of the class. For other combinations it uses
-                // the rotation of the class. That is probably a mistake of the file, and an error here.
-                if other != own && values.remove(other).is_some() && other != "quat" {
-                    return Err(self.invalid(own));
+                // In MuJoCo any rotation replaces a quaternion of the class. In other combinations the rotation
+                // of the class applies. This is probably a mistake in the file, so it is an error here.
+                if other != name && values.remove(other).is_some() && other != "quat" {
+                    return Err(self.invalid(name));
                 }
             }
         }
         for (name, value) in &self.values {
             let merged = match values.get(name) {
-                Some(of_class) if name == "size" => {
-                    let rest = of_class
+                Some(class_value) if name == "size" => {
+                    let rest = class_value
                         .split_ascii_whitespace()
                         .skip(value.split_ascii_whitespace().count());
                     let all = value.split_ascii_whitespace().chain(rest);
@@ -123,9 +123,9 @@ impl Attributes {
 
     /// Normalises a vector. The error names the attribute that it comes from.
     pub(super) fn direction(&self, name: &str, vector: DVec3) -> Result<DVec3, MjcfError> {
-        let has_direction = |_: &DVec3| LENGTHS_WITH_DIRECTION.contains(&vector.length());
-        let along = unit(vector).filter(has_direction);
-        along.ok_or_else(|| self.invalid(name))
+        let has_direction = |_: &DVec3| ACCEPTED_LENGTHS.contains(&vector.length());
+        let direction = unit(vector).filter(has_direction);
+        direction.ok_or_else(|| self.invalid(name))
     }
 
     /// Parses an attribute as a quaternion; `None` if it is absent.
@@ -134,26 +134,26 @@ impl Attributes {
             return Ok(None);
         };
         let quaternion = DQuat::from_xyzw(x, y, z, w);
-        if !LENGTHS_WITH_DIRECTION.contains(&quaternion.length()) {
+        if !ACCEPTED_LENGTHS.contains(&quaternion.length()) {
             return Err(self.invalid(name));
         }
         Ok(Some(quaternion))
     }
 
-    /// Parses an attribute as an integer. Returns `other` if it is absent.
-    pub(super) fn integer_or(&self, name: &str, other: i32) -> Result<i32, MjcfError> {
+    /// Parses an attribute as an integer. Returns `default` if it is absent.
+    pub(super) fn integer_or(&self, name: &str, default: i32) -> Result<i32, MjcfError> {
         match self.get(name) {
             Some(text) => text.trim_ascii().parse().map_err(|_| self.invalid(name)),
-            None => Ok(other),
+            None => Ok(default),
         }
     }
 
-    /// Parses an attribute as a boolean. Returns `other` if it is absent.
-    pub(super) fn truth_or(&self, name: &str, other: bool) -> Result<bool, MjcfError> {
+    /// Parses an attribute as a boolean. Returns `default` if it is absent.
+    pub(super) fn truth_or(&self, name: &str, default: bool) -> Result<bool, MjcfError> {
         match self.get(name) {
             Some("true") => Ok(true),
             Some("false") => Ok(false),
-            None => Ok(other),
+            None => Ok(default),
             Some(_) => Err(self.invalid(name)),
         }
     }

@@ -34,7 +34,7 @@ pub(super) struct MjcfJoint {
     pub(super) axis: DVec3,
     /// The limits of the position; `None` for an unlimited joint.
     pub(super) limits: Option<[f64; 2]>,
-    /// The position at which the body has its pose.
+    /// The position of the joint at which the body has the pose in the file.
     pub(super) reference: f64,
     /// Whether MuJoCo moves the body's frame to its center of mass.
     is_aligned: bool,
@@ -53,7 +53,7 @@ pub(super) enum MjcfJointKind {
 pub(super) struct MjcfGeom {
     pub(super) attributes: Attributes,
     pub(super) pose: Pose,
-    /// The pose of the surrounding frame, in which `fromto` is given.
+    /// The pose of the surrounding `frame` element in the body's frame. The points of `fromto` are in this frame.
     pub(super) frame: Pose,
     pub(super) contype: i32,
     pub(super) conaffinity: i32,
@@ -84,7 +84,11 @@ pub(super) fn read_bodies(
             geoms: Vec::new(),
         }],
     };
-    for world in root.children.iter().filter(|own| own.name == "worldbody") {
+    for world in root
+        .children
+        .iter()
+        .filter(|section| section.name == "worldbody")
+    {
         reader.add_children(world, &Place::in_body(WORLD))?;
     }
     Ok(reader.bodies)
@@ -98,10 +102,10 @@ struct Reader<'r> {
     added_count: usize,
 }
 
-/// The context in which elements are added.
+/// The context of the elements that are added.
 #[derive(Clone, Copy)]
 struct Place<'r> {
-    /// The index of the body.
+    /// The index of the body to which the elements are added.
     body: usize,
     /// The pose of the elements' frame in the body's frame.
     frame: Pose,
@@ -130,63 +134,66 @@ impl Reader<'_> {
             if self.added_count > MAX_ELEMENTS {
                 return Err(MjcfError::TooManyElements);
             }
-            let mut own = self.classes.merged(child, place.class)?;
-            own.add_to_name(place.suffix);
-            if let Some(class) = own.get("childclass") {
+            let mut attributes = self.classes.merged(child, place.class)?;
+            attributes.add_to_name(place.suffix);
+            if let Some(class) = attributes.get("childclass") {
                 self.classes.check(class)?;
             }
             let inner = Place {
-                class: own.get("childclass").or(place.class),
+                class: attributes.get("childclass").or(place.class),
                 ..*place
             };
             match child.name.as_str() {
-                "body" => self.add_body(child, &own, &inner)?,
+                "body" => self.add_body(child, &attributes, &inner)?,
                 "frame" => {
-                    let frame = place.frame.compose(&read_pose(&own, self.settings)?);
+                    let frame = place.frame.compose(&read_pose(&attributes, self.settings)?);
                     self.add_children(child, &Place { frame, ..inner })?;
                 }
-                "replicate" => self.replicate(child, &own, &inner)?,
+                "replicate" => self.replicate(child, &attributes, &inner)?,
                 "geom" => {
-                    let geom = self.geom(own, place.frame)?;
+                    let geom = self.geom(attributes, place.frame)?;
                     self.bodies[place.body].geoms.push(geom);
                 }
                 "joint" | "freejoint" => {
-                    let joint = self.joint(&own, place.body, place.frame)?;
+                    let joint = self.joint(&attributes, place.body, place.frame)?;
                     self.bodies[place.body].joints.push(joint);
                 }
-                // These elements contain no shapes and no joints.
-                "camera" | "inertial" | "light" | "plugin" | "site" => {}
-                _ => return Err(child.unknown_in(&element.name)),
+                // `schema::check` accepts no other elements with shapes or joints.
+                _ => {}
             }
         }
         Ok(())
     }
 
-    /// Adds the children of a `replicate` element several times. Each copy is moved further, and its names get a
-    /// number.
+    /// Adds the children of a `replicate` element several times. Each copy is displaced from the previous copy, and its
+    /// names get the index of the copy as a suffix.
     fn replicate(
         &mut self,
         element: &Element,
-        own: &Attributes,
+        attributes: &Attributes,
         place: &Place<'_>,
     ) -> Result<(), MjcfError> {
-        let count = own.integer_or("count", 0)?;
+        let count = attributes.integer_or("count", 0)?;
         if count < 1 {
-            return Err(own.invalid("count"));
+            return Err(attributes.invalid("count"));
         }
-        let offset = own.array("offset")?.map_or(DVec3::ZERO, DVec3::from_array);
-        let angles: [f64; 3] = own.array("euler")?.unwrap_or_default();
-        let turn = |times: f64| euler_rotation(angles.map(|angle| times * angle), self.settings);
+        let offset = attributes
+            .array("offset")?
+            .map_or(DVec3::ZERO, DVec3::from_array);
+        let angles: [f64; 3] = attributes.array("euler")?.unwrap_or_default();
+        let copy_rotation =
+            |times: f64| euler_rotation(angles.map(|angle| times * angle), self.settings);
         let digits = (count - 1).to_string().len();
-        let mut at = DVec3::ZERO;
+        let mut position = DVec3::ZERO;
         for k in 0..count {
-            let rotation = turn(k as f64);
-            let moved = Pose::new(at, rotation).map_err(|_| own.invalid("offset"))?;
-            at += rotation * offset;
-            let separator = own.get("sep").unwrap_or("");
+            let rotation = copy_rotation(k as f64);
+            let copy_pose =
+                Pose::new(position, rotation).map_err(|_| attributes.invalid("offset"))?;
+            position += rotation * offset;
+            let separator = attributes.get("sep").unwrap_or("");
             let suffix = format!("{separator}{k:0digits$}{}", place.suffix);
             let inner = Place {
-                frame: place.frame.compose(&moved),
+                frame: place.frame.compose(&copy_pose),
                 suffix: &suffix,
                 ..*place
             };
@@ -198,17 +205,17 @@ impl Reader<'_> {
     fn add_body(
         &mut self,
         element: &Element,
-        own: &Attributes,
+        attributes: &Attributes,
         place: &Place<'_>,
     ) -> Result<(), MjcfError> {
         let number = self.bodies.len();
-        let name = own
+        let name = attributes
             .name("name")
             .map_or_else(|| format!("body{number}"), str::to_owned);
-        let pose = place.frame.compose(&read_pose(own, self.settings)?);
+        let pose = place.frame.compose(&read_pose(attributes, self.settings)?);
         let mut joints = Vec::new();
-        // The user of the simulation moves this body freely.
-        if own.truth_or("mocap", false)? {
+        // In MuJoCo, the user of the simulation moves a `mocap` body freely.
+        if attributes.truth_or("mocap", false)? {
             joints.push(MjcfJoint {
                 name: format!("{name}/mocap"),
                 kind: MjcfJointKind::Free,
@@ -235,7 +242,7 @@ impl Reader<'_> {
         self.add_children(element, &inner)?;
         let has_children = self.bodies.len() > number + 1;
         let body = &self.bodies[number];
-        if !has_children && body.joints.iter().any(|own| own.is_aligned) {
+        if !has_children && body.joints.iter().any(|joint| joint.is_aligned) {
             let body = body.name.clone();
             return Err(MjcfError::AlignedBody { body });
         }
@@ -252,40 +259,49 @@ impl Reader<'_> {
         })
     }
 
-    fn joint(&self, own: &Attributes, number: usize, frame: Pose) -> Result<MjcfJoint, MjcfError> {
+    fn joint(
+        &self,
+        attributes: &Attributes,
+        number: usize,
+        frame: Pose,
+    ) -> Result<MjcfJoint, MjcfError> {
         let body = &self.bodies[number];
-        let kind = match own.get("type") {
-            _ if own.element == "freejoint" => MjcfJointKind::Free,
+        let kind = match attributes.get("type") {
+            _ if attributes.element == "freejoint" => MjcfJointKind::Free,
             None | Some("hinge") => MjcfJointKind::Hinge,
             Some("slide") => MjcfJointKind::Slide,
             Some("ball") => MjcfJointKind::Ball,
             Some("free") => MjcfJointKind::Free,
-            Some(_) => return Err(own.invalid("type")),
+            Some(_) => return Err(attributes.invalid("type")),
         };
         // The world has no joints. A free joint is only allowed on a child of the world, as its only joint.
         let is_free = kind == MjcfJointKind::Free
             || body
                 .joints
                 .iter()
-                .any(|own| own.kind == MjcfJointKind::Free);
+                .any(|joint| joint.kind == MjcfJointKind::Free);
         if number == WORLD || is_free && (body.parent != Some(WORLD) || !body.joints.is_empty()) {
-            return Err(own.invalid("type"));
+            return Err(attributes.invalid("type"));
         }
-        let anchor = own.array("pos")?.map_or(DVec3::ZERO, DVec3::from_array);
-        let axis = own.array("axis")?.map_or(DVec3::Z, DVec3::from_array);
-        let axis = own.direction("axis", axis)?;
-        let of_compiler = self.settings.aligns_free_bodies;
-        let is_aligned = match own.get("align") {
-            None | Some("auto") => of_compiler,
-            Some(_) => own.truth_or("align", of_compiler)?,
+        let anchor = attributes
+            .array("pos")?
+            .map_or(DVec3::ZERO, DVec3::from_array);
+        let axis = attributes
+            .array("axis")?
+            .map_or(DVec3::Z, DVec3::from_array);
+        let axis = attributes.direction("axis", axis)?;
+        let default_align = self.settings.aligns_free_bodies;
+        let is_aligned = match attributes.get("align") {
+            None | Some("auto") => default_align,
+            Some(_) => attributes.truth_or("align", default_align)?,
         };
         let scale = |position: f64| match kind {
             MjcfJointKind::Hinge => self.settings.radians(position),
             _ => position,
         };
-        let [reference] = own.array("ref")?.unwrap_or([0.0]);
+        let [reference] = attributes.array("ref")?.unwrap_or([0.0]);
         Ok(MjcfJoint {
-            name: own.name("name").map_or_else(
+            name: attributes.name("name").map_or_else(
                 || format!("{}/joint{}", body.name, body.joints.len()),
                 str::to_owned,
             ),
@@ -293,10 +309,10 @@ impl Reader<'_> {
             anchor: frame.transform_point(anchor),
             axis: frame.rotation() * axis,
             limits: match kind {
-                // A free joint has no limits. Those of a ball joint are ignored.
+                // A free joint has no limits. The limits of a ball joint are ignored.
                 MjcfJointKind::Free | MjcfJointKind::Ball => None,
                 MjcfJointKind::Hinge | MjcfJointKind::Slide => {
-                    self.limits(own)?.map(|limits| limits.map(scale))
+                    self.limits(attributes)?.map(|limits| limits.map(scale))
                 }
             },
             reference: scale(reference),
@@ -304,15 +320,15 @@ impl Reader<'_> {
         })
     }
 
-    fn limits(&self, own: &Attributes) -> Result<Option<[f64; 2]>, MjcfError> {
-        let range: Option<[f64; 2]> = own.array("range")?;
-        let proper = range.filter(|[low, high]| low < high && self.settings.has_limits);
-        match own.get("limited") {
+    fn limits(&self, attributes: &Attributes) -> Result<Option<[f64; 2]>, MjcfError> {
+        let range: Option<[f64; 2]> = attributes.array("range")?;
+        let valid_range = range.filter(|[low, high]| low < high && self.settings.has_limits);
+        match attributes.get("limited") {
             // An empty range gives no limits.
-            None | Some("auto") => Ok(proper.filter(|_| self.settings.limits_follow_ranges)),
-            Some(_) if own.truth_or("limited", false)? => {
-                proper.map(Some).ok_or_else(|| own.invalid("range"))
-            }
+            None | Some("auto") => Ok(valid_range.filter(|_| self.settings.limits_follow_ranges)),
+            Some(_) if attributes.truth_or("limited", false)? => valid_range
+                .map(Some)
+                .ok_or_else(|| attributes.invalid("range")),
             Some(_) => Ok(None),
         }
     }

@@ -19,7 +19,11 @@ impl Classes {
     pub(super) fn read(root: &Element) -> Result<Self, MjcfError> {
         let mut classes = Classes(BTreeMap::from([(MAIN.to_owned(), ClassAttributes::new())]));
         let mut name_of_main = None;
-        for section in root.children.iter().filter(|own| own.name == "default") {
+        for section in root
+            .children
+            .iter()
+            .filter(|section| section.name == "default")
+        {
             // The outermost class applies to all elements. All sections must give it the same name.
             let name = section.attributes.name("class").unwrap_or(MAIN);
             if *name_of_main.get_or_insert(name) != name {
@@ -39,19 +43,19 @@ impl Classes {
         inherited: &ClassAttributes,
         name: &str,
     ) -> Result<ClassAttributes, MjcfError> {
-        let mut own = inherited.clone();
+        let mut attributes = inherited.clone();
         for element in class
             .children
             .iter()
             .filter(|element| element.name != "default")
         {
-            let merged = match own.get(&element.name) {
-                Some(of_class) => element.attributes.over(of_class)?,
+            let merged = match attributes.get(&element.name) {
+                Some(class_attributes) => element.attributes.over(class_attributes)?,
                 None => element.attributes.clone(),
             };
-            own.insert(element.name.clone(), merged);
+            attributes.insert(element.name.clone(), merged);
         }
-        self.0.insert(name.to_owned(), own.clone());
+        self.0.insert(name.to_owned(), attributes.clone());
         for inner in class
             .children
             .iter()
@@ -61,9 +65,9 @@ impl Classes {
             if self.0.contains_key(name) {
                 return Err(MjcfError::repeated_name("class", name));
             }
-            self.add(inner, &own, name)?;
+            self.add(inner, &attributes, name)?;
         }
-        Ok(own)
+        Ok(attributes)
     }
 
     /// Checks that a class exists.
@@ -76,26 +80,30 @@ impl Classes {
         class.ok_or_else(|| MjcfError::unknown_name("class", name))
     }
 
-    /// Returns the attributes of an element merged over those of its class: its own class, or else the default class
-    /// of its body.
+    /// Returns the attributes of an element merged with the attributes of its class. An element without a class has the
+    /// default class of its body.
     pub(super) fn merged(
         &self,
         element: &Element,
-        of_body: Option<&str>,
+        body_class: Option<&str>,
     ) -> Result<Attributes, MjcfError> {
-        self.merged_as(&element.name, element, of_body)
+        self.merged_as(&element.name, element, body_class)
     }
 
-    /// Like [`Classes::merged`], for elements that classes list under another name.
+    /// Returns the merged attributes of an element that classes list under another name, like [`Classes::merged`].
     pub(super) fn merged_as(
         &self,
         name: &str,
         element: &Element,
-        of_body: Option<&str>,
+        body_class: Option<&str>,
     ) -> Result<Attributes, MjcfError> {
-        let class = element.attributes.get("class").or(of_body).unwrap_or(MAIN);
+        let class = element
+            .attributes
+            .get("class")
+            .or(body_class)
+            .unwrap_or(MAIN);
         match self.attributes_of(class)?.get(name) {
-            Some(of_class) => element.attributes.over(of_class),
+            Some(class_attributes) => element.attributes.over(class_attributes),
             None => Ok(element.attributes.clone()),
         }
     }

@@ -3,7 +3,8 @@
 use super::attributes::Attributes;
 use crate::robot_file::error::RobotFileError;
 use crate::robot_file::mjcf_error::MjcfError;
-use roxmltree::{Document, Node, ParsingOptions};
+use crate::robot_file::{parse_xml, read};
+use roxmltree::Node;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
@@ -35,7 +36,10 @@ pub(super) fn children_of_sections<'r>(
     root: &'r Element,
     section: &'r str,
 ) -> impl Iterator<Item = &'r Element> {
-    let sections = root.children.iter().filter(move |own| own.name == section);
+    let sections = root
+        .children
+        .iter()
+        .filter(move |element| element.name == section);
     sections.flat_map(|section| &section.children)
 }
 
@@ -51,14 +55,6 @@ pub(super) fn parse(text: &str, folder: &Path) -> Result<Element, RobotFileError
     Ok(elements.swap_remove(0))
 }
 
-fn parse_xml(text: &str) -> Result<Document<'_>, String> {
-    let options = ParsingOptions {
-        allow_dtd: false,
-        ..ParsingOptions::default()
-    };
-    Document::parse_with_options(text, options).map_err(|error| error.to_string())
-}
-
 /// Rejects names with a namespace prefix, such as `x:geom`. MJCF has none.
 fn refuse_prefixes(node: Node<'_, '_>) -> Result<(), MjcfError> {
     let qualified = |prefix: &str, name: &str| format!("{prefix}:{name}");
@@ -68,7 +64,9 @@ fn refuse_prefixes(node: Node<'_, '_>) -> Result<(), MjcfError> {
         let parent = node.parent_element();
         return Err(MjcfError::UnknownElement {
             element: qualified(prefix, name.name()),
-            parent: parent.map_or("", |own| own.tag_name().name()).to_owned(),
+            parent: parent
+                .map_or("", |parent| parent.tag_name().name())
+                .to_owned(),
         });
     }
     for attribute in node.attributes() {
@@ -114,11 +112,7 @@ impl Reader<'_> {
             if !self.included.insert(file.clone()) {
                 return Err(MjcfError::repeated_name("include", name).into());
             }
-            let text =
-                ccd_file::read_to_string(&file).map_err(|error| RobotFileError::Unreadable {
-                    file: file.clone(),
-                    error: error.to_string(),
-                })?;
+            let text = read(&file)?;
             let document =
                 parse_xml(&text).map_err(|error| RobotFileError::Syntax { file, error })?;
             return self.children(document.root_element(), depth + 1);

@@ -2,7 +2,7 @@
 
 use super::assets::MeshSource;
 use super::bodies::{MjcfBody, MjcfGeom};
-use super::height_fields::HeightField;
+use super::height_fields::height_field_mesh;
 use super::model::MjcfModel;
 use super::orientation::rotation_of_z_to;
 use crate::robot::{Link, LinkBody};
@@ -20,7 +20,7 @@ use std::sync::Arc;
 const FIRST_HIDDEN_GROUP: i32 = 3;
 
 /// The geom types that accept `fromto`.
-const BETWEEN_POINTS: [&str; 4] = ["capsule", "cylinder", "box", "ellipsoid"];
+const TYPES_WITH_FROMTO: [&str; 4] = ["capsule", "cylinder", "box", "ellipsoid"];
 
 /// Converts the geoms of a model into bodies and planes.
 pub(super) struct GeomReader<'r> {
@@ -32,12 +32,10 @@ pub(super) struct GeomReader<'r> {
 impl GeomReader<'_> {
     /// Adds the geoms of a body to its link.
     pub(super) fn add_to(&self, link: &mut Link, body: &MjcfBody) -> Result<(), RobotFileError> {
-        for (number, geom) in body.geoms.iter().enumerate() {
+        for (index, geom) in body.geoms.iter().enumerate() {
             self.add_geom(link, geom).map_err(|error| {
-                let name = geom
-                    .name()
-                    .map_or_else(|| number.to_string(), str::to_owned);
-                error.with_geom_name(&name)
+                let name = geom.name().map_or_else(|| index.to_string(), str::to_owned);
+                error.within("geom", &name)
             })?;
         }
         Ok(())
@@ -45,26 +43,26 @@ impl GeomReader<'_> {
 
     /// Adds a geom to its link, if it is of the selected kind.
     fn add_geom(&self, link: &mut Link, geom: &MjcfGeom) -> Result<(), RobotFileError> {
-        let own = &geom.attributes;
+        let attributes = &geom.attributes;
         let is_body = match self.elements {
             BodyElements::Collision => self.mjcf.is_solid(geom),
-            BodyElements::Visual => own.integer_or("group", 0)? < FIRST_HIDDEN_GROUP,
+            BodyElements::Visual => attributes.integer_or("group", 0)? < FIRST_HIDDEN_GROUP,
         };
         if !is_body {
             return Ok(());
         }
-        let kind = own.get("type").unwrap_or("sphere");
-        if own.get("fromto").is_some() && !BETWEEN_POINTS.contains(&kind) {
-            return Err(own.invalid("fromto").into());
+        let kind = attributes.get("type").unwrap_or("sphere");
+        if attributes.get("fromto").is_some() && !TYPES_WITH_FROMTO.contains(&kind) {
+            return Err(attributes.invalid("fromto").into());
         }
         let body = match kind {
             "plane" => {
                 link.planes.push(geom.pose);
                 return Ok(());
             }
-            "mesh" => self.mesh(own.required_name("mesh")?)?,
-            "hfield" => self.height_field(own.required_name("hfield")?)?,
-            _ if own.name("mesh").is_some() => {
+            "mesh" => self.mesh(attributes.required_name("mesh")?)?,
+            "hfield" => self.height_field(attributes.required_name("hfield")?)?,
+            _ if attributes.name("mesh").is_some() => {
                 return Err(unsupported("a shape that is fitted to a mesh"));
             }
             _ => {
@@ -86,7 +84,7 @@ impl GeomReader<'_> {
         match &asset.source {
             MeshSource::File(uri) => self.meshes.body(self.file(uri)?, asset.map),
             MeshSource::Builtin => Err(unsupported("a mesh that MuJoCo makes")),
-            MeshSource::Given { vertices, faces } => {
+            MeshSource::InModel { vertices, faces } => {
                 let mesh = match &faces[..] {
                     [] => hull_mesh(vertices)?,
                     faces => TriangleMesh::new(vertices.clone(), faces)?,
@@ -97,11 +95,14 @@ impl GeomReader<'_> {
     }
 
     fn height_field(&self, name: &str) -> Result<Arc<Body>, RobotFileError> {
-        let Some(own) = self.mjcf.assets.height_fields.get(name) else {
+        let Some(attributes) = self.mjcf.assets.height_fields.get(name) else {
             return Err(MjcfError::unknown_name("hfield", name).into());
         };
-        let file = own.name("file").map(|uri| self.file(uri)).transpose()?;
-        let mesh = HeightField::read(own, file.as_deref())?.mesh()?;
+        let file = attributes
+            .name("file")
+            .map(|uri| self.file(uri))
+            .transpose()?;
+        let mesh = height_field_mesh(attributes, file.as_deref())?;
         self.meshes.body_of_height_field(&mesh, name)
     }
 
@@ -120,7 +121,7 @@ impl GeomReader<'_> {
 
 /// Creates the body of a primitive geom. Returns it with its pose.
 fn primitive(geom: &MjcfGeom, kind: &str) -> Result<(Body, Pose), RobotFileError> {
-    let own = &geom.attributes;
+    let attributes = &geom.attributes;
     let (pose, sizes) = pose_and_sizes(geom, kind)?;
     let body = match (kind, &sizes[..]) {
         ("sphere", &[radius, ..]) => Body::sphere(radius)?,
@@ -130,44 +131,44 @@ fn primitive(geom: &MjcfGeom, kind: &str) -> Result<(Body, Pose), RobotFileError
         ("ellipsoid", &[x, y, z]) => ccd_decomp::ellipsoid([x, y, z])?,
         ("sdf", _) => return Err(unsupported("a signed distance field")),
         ("sphere" | "capsule" | "cylinder" | "box" | "ellipsoid", _) => {
-            return Err(own.invalid("size").into());
+            return Err(attributes.invalid("size").into());
         }
-        _ => return Err(own.invalid("type").into()),
+        _ => return Err(attributes.invalid("type").into()),
     };
     Ok((body, pose))
 }
 
-/// Returns the pose and the sizes of a geom; sizes are half lengths. `fromto` may specify both.
+/// Returns the pose and the sizes of a geom. Sizes are half lengths. `fromto` may specify the pose and a size.
 fn pose_and_sizes(geom: &MjcfGeom, kind: &str) -> Result<(Pose, Vec<f64>), RobotFileError> {
-    let own = &geom.attributes;
-    let sizes = own.numbers("size")?.unwrap_or_default();
-    let (pose, sizes) = match own.array("fromto")? {
+    let attributes = &geom.attributes;
+    let sizes = attributes.numbers("size")?.unwrap_or_default();
+    let (pose, sizes) = match attributes.array("fromto")? {
         None => (geom.pose, sizes),
         Some([x, y, z, to_x, to_y, to_z]) => {
             let (from, to) = (DVec3::new(x, y, z), DVec3::new(to_x, to_y, to_z));
-            let axis = own.direction("fromto", from - to)?;
-            if own.array("pos")?.is_some_and(|at| at != [0.0; 3]) {
-                return Err(own.invalid("pos").into());
+            let axis = attributes.direction("fromto", from - to)?;
+            if attributes.array("pos")?.is_some_and(|at| at != [0.0; 3]) {
+                return Err(attributes.invalid("pos").into());
             }
             let pose = Pose::new(0.5 * (from + to), rotation_of_z_to(axis))?;
-            let half = 0.5 * from.distance(to);
-            let width = sizes.first().copied().unwrap_or(0.0);
+            let half_length = 0.5 * from.distance(to);
+            let radius = sizes.first().copied().unwrap_or(0.0);
             let sizes = match kind {
-                "capsule" | "cylinder" => vec![width, half],
-                _ => vec![width, width, half],
+                "capsule" | "cylinder" => vec![radius, half_length],
+                _ => vec![radius, radius, half_length],
             };
             (geom.frame.compose(&pose), sizes)
         }
     };
-    let is_shape = kind == "sphere" || BETWEEN_POINTS.contains(&kind);
-    let used = match kind {
+    let is_shape = kind == "sphere" || TYPES_WITH_FROMTO.contains(&kind);
+    let size_count = match kind {
         "sphere" => 1,
         "capsule" | "cylinder" => 2,
         _ => 3,
     };
-    let is_positive = sizes.iter().take(used).all(|&size| size > 0.0);
-    if sizes.len() > 3 || is_shape && !(is_positive && sizes.len() >= used) {
-        return Err(own.invalid("size").into());
+    let is_positive = sizes.iter().take(size_count).all(|&size| size > 0.0);
+    if sizes.len() > 3 || is_shape && !(is_positive && sizes.len() >= size_count) {
+        return Err(attributes.invalid("size").into());
     }
     Ok((pose, sizes))
 }

@@ -12,16 +12,12 @@ use std::collections::HashMap;
 /// Converts the joints of a model.
 pub(super) struct JointReader<'r> {
     mjcf: &'r MjcfModel,
-    /// For each joint that follows another one, by name, the joint that it follows and the function.
-    followers: HashMap<&'r str, Follower<'r>>,
+    /// The rules of the joints that follow another one, by name.
+    mimic_rules: MimicRules<'r>,
 }
 
-/// The linear function by which a joint follows another one.
-struct Follower<'r> {
-    leader: &'r str,
-    multiplier: f64,
-    offset: f64,
-}
+/// For each joint that follows another one, by name, its position rule.
+type MimicRules<'r> = HashMap<&'r str, PositionRule>;
 
 /// The chain of joints between a body and its parent, while it is built.
 struct Chain<'r> {
@@ -30,8 +26,8 @@ struct Chain<'r> {
     /// The links between the parent and the body.
     links: Vec<Link>,
     joints: Vec<Joint>,
-    /// The last link of the chain so far.
-    at: String,
+    /// The name of the last link.
+    last_link: String,
     /// The pose of the body's frame in the frame of the last link, with all remaining joints at their references.
     frame: Pose,
 }
@@ -40,7 +36,7 @@ impl<'r> JointReader<'r> {
     pub(super) fn new(mjcf: &'r MjcfModel) -> Result<Self, MjcfError> {
         Ok(JointReader {
             mjcf,
-            followers: read_followers(mjcf)?,
+            mimic_rules: read_mimic_rules(mjcf)?,
         })
     }
 
@@ -57,21 +53,21 @@ impl<'r> JointReader<'r> {
             body: name,
             links: Vec::new(),
             joints: Vec::new(),
-            at: self.mjcf.bodies[parent].name.clone(),
+            last_link: self.mjcf.bodies[parent].name.clone(),
             frame: body.pose,
         };
         for (k, joint) in body.joints.iter().enumerate() {
             let is_last = k + 1 == body.joints.len();
-            let ends_in_frame = joint.anchor == DVec3::ZERO || !joint.kind.turns();
+            let ends_in_frame = joint.anchor == DVec3::ZERO || !joint.kind.is_rotational();
             let child = if is_last && ends_in_frame {
                 name.clone()
             } else {
                 format!("{name}/{}", joint.name)
             };
             self.add_joint(&mut chain, joint, child)
-                .map_err(|error| RobotFileError::from(error).with_joint_name(&joint.name))?;
+                .map_err(|error| RobotFileError::from(error).within("joint", &joint.name))?;
         }
-        if chain.at != *name {
+        if chain.last_link != *name {
             let fixed = trajectory::Joint::fixed(chain.frame);
             let rule = PositionRule::Independent;
             chain.push(format!("{name}/fixed"), name.clone(), fixed, rule);
@@ -91,14 +87,14 @@ impl<'r> JointReader<'r> {
         let name = &joint.name;
         match joint.kind {
             MjcfJointKind::Hinge => {
-                // At position 0 the body is turned back from its reference position.
-                let back = DQuat::from_scaled_axis(-joint.reference * joint.axis);
-                let origin = at_anchor.compose(&Pose::new(DVec3::ZERO, back)?);
-                let moving = trajectory::Joint::revolute(origin, joint.axis)?;
+                // The pose in the file is the pose at the reference position. The joint's origin is the pose at 0.
+                let to_zero = DQuat::from_scaled_axis(-joint.reference * joint.axis);
+                let origin = at_anchor.compose(&Pose::new(DVec3::ZERO, to_zero)?);
+                let geometry = trajectory::Joint::revolute(origin, joint.axis)?;
                 chain.push(
                     name.clone(),
                     child,
-                    joint.limited(moving),
+                    joint.with_limits(geometry),
                     self.position_rule(name),
                 );
                 chain.frame = anchor.inverse();
@@ -107,11 +103,11 @@ impl<'r> JointReader<'r> {
                 let origin = chain
                     .frame
                     .compose(&Pose::at(-joint.reference * joint.axis)?);
-                let moving = trajectory::Joint::prismatic(origin, joint.axis)?;
+                let geometry = trajectory::Joint::prismatic(origin, joint.axis)?;
                 chain.push(
                     name.clone(),
                     child,
-                    joint.limited(moving),
+                    joint.with_limits(geometry),
                     self.position_rule(name),
                 );
                 chain.frame = Pose::IDENTITY;
@@ -121,7 +117,7 @@ impl<'r> JointReader<'r> {
                 chain.frame = anchor.inverse();
             }
             MjcfJointKind::Free => {
-                // The positions are those of the body in the world.
+                // The positions are relative to the world's origin, not to the pose in the file.
                 chain.push_compound(CompoundKind::Floating, name, child, Pose::IDENTITY)?;
                 chain.frame = Pose::IDENTITY;
             }
@@ -130,20 +126,14 @@ impl<'r> JointReader<'r> {
     }
 
     fn position_rule(&self, joint: &str) -> PositionRule {
-        match self.followers.get(joint) {
-            None => PositionRule::Independent,
-            Some(follower) => PositionRule::Follows {
-                joint: follower.leader.to_owned(),
-                multiplier: follower.multiplier,
-                offset: follower.offset,
-            },
-        }
+        let rule = self.mimic_rules.get(joint).cloned();
+        rule.unwrap_or(PositionRule::Independent)
     }
 }
 
 impl MjcfJointKind {
-    /// Returns whether the joint rotates about its anchor.
-    fn turns(self) -> bool {
+    /// Returns whether the joint rotates the body about the anchor only.
+    fn is_rotational(self) -> bool {
         matches!(self, MjcfJointKind::Hinge | MjcfJointKind::Ball)
     }
 
@@ -153,10 +143,10 @@ impl MjcfJointKind {
 }
 
 impl MjcfJoint {
-    fn limited(&self, moving: trajectory::Joint) -> trajectory::Joint {
+    fn with_limits(&self, geometry: trajectory::Joint) -> trajectory::Joint {
         match self.limits {
-            Some([low, high]) => moving.with_limits(low..=high),
-            None => moving,
+            Some([low, high]) => geometry.with_limits(low..=high),
+            None => geometry,
         }
     }
 }
@@ -166,15 +156,15 @@ impl Chain<'_> {
         &mut self,
         name: String,
         child: String,
-        moving: trajectory::Joint,
+        geometry: trajectory::Joint,
         position_rule: PositionRule,
     ) {
-        let parent = self.move_on_to(child);
+        let parent = self.append_link(child);
         self.joints.push(Joint {
             name,
             parent,
-            child: self.at.clone(),
-            geometry: moving,
+            child: self.last_link.clone(),
+            geometry,
             position_rule,
         });
     }
@@ -186,66 +176,68 @@ impl Chain<'_> {
         child: String,
         origin: Pose,
     ) -> Result<(), InputError> {
-        let parent = self.move_on_to(child);
-        let (links, joints) = kind.links_and_joints(name, [&parent, &self.at], origin)?;
+        let parent = self.append_link(child);
+        let (links, joints) = kind.links_and_joints(name, [&parent, &self.last_link], origin)?;
         self.links.extend(links);
         self.joints.extend(joints);
         Ok(())
     }
 
-    /// Makes `child` the last link, and returns the previous one. The link of the body itself exists already.
-    fn move_on_to(&mut self, child: String) -> String {
+    /// Makes `child` the last link, and returns the name of the previous one. The link of the body exists already.
+    fn append_link(&mut self, child: String) -> String {
         if child != self.body {
             self.links.push(Link::named(&child));
         }
-        std::mem::replace(&mut self.at, child)
+        std::mem::replace(&mut self.last_link, child)
     }
 }
 
-/// Reads the equality constraints that make a joint a linear function of another one. The first valid one of each
-/// joint applies. A constraint that would close a loop is ignored.
-fn read_followers(mjcf: &MjcfModel) -> Result<HashMap<&str, Follower<'_>>, MjcfError> {
+/// Reads the equality constraints that make the position of a joint a linear function of another joint's position. For
+/// each joint, the first valid constraint applies. A constraint is ignored if the joint would follow itself.
+fn read_mimic_rules(mjcf: &MjcfModel) -> Result<MimicRules<'_>, MjcfError> {
     let joints = mjcf.bodies.iter().flat_map(|body| &body.joints);
-    let joints: HashMap<&str, &MjcfJoint> = joints.map(|own| (own.name.as_str(), own)).collect();
-    let mut followers: HashMap<&str, Follower<'_>> = HashMap::new();
-    for own in mjcf.constraints_named("joint") {
+    let joints: HashMap<&str, &MjcfJoint> =
+        joints.map(|joint| (joint.name.as_str(), joint)).collect();
+    let mut rules = MimicRules::new();
+    for constraint in mjcf.constraints_named("joint") {
         let find = |name: &str| {
             let joint = joints.get(name).copied();
             joint.ok_or_else(|| MjcfError::unknown_name("joint", name))
         };
-        let joint = find(own.required_name("joint1")?)?;
-        let Some(leader) = own.name("joint2").map(find).transpose()? else {
+        let joint = find(constraint.required_name("joint1")?)?;
+        let Some(leader) = constraint.name("joint2").map(find).transpose()? else {
             continue;
         };
         // The default coefficients make both positions equal.
         let mut coefficients = [0.0, 1.0, 0.0, 0.0, 0.0];
-        let given = own.numbers("polycoef")?.unwrap_or_default();
-        if given.len() > coefficients.len() {
-            return Err(own.invalid("polycoef"));
+        let polynomial = constraint.numbers("polycoef")?.unwrap_or_default();
+        if polynomial.len() > coefficients.len() {
+            return Err(constraint.invalid("polycoef"));
         }
-        coefficients[..given.len()].copy_from_slice(&given);
+        coefficients[..polynomial.len()].copy_from_slice(&polynomial);
         let [constant, multiplier, ref higher @ ..] = coefficients;
-        let is_linear = higher.iter().all(|&own| own == 0.0);
-        let have_one = joint.kind.has_one_position() && leader.kind.has_one_position();
-        let is_active = own.truth_or("active", true)?;
-        if is_active && is_linear && have_one && !follows(&followers, &leader.name, &joint.name) {
-            followers.entry(&joint.name).or_insert(Follower {
-                leader: &leader.name,
+        let is_linear = higher.iter().all(|&coefficient| coefficient == 0.0);
+        let has_one_position = joint.kind.has_one_position() && leader.kind.has_one_position();
+        let is_active = constraint.truth_or("active", true)?;
+        let applies = is_active && is_linear && has_one_position;
+        if applies && !follows(&rules, &leader.name, &joint.name) {
+            rules.entry(&joint.name).or_insert(PositionRule::Follows {
+                joint: leader.name.clone(),
                 multiplier,
                 offset: joint.reference + constant - multiplier * leader.reference,
             });
         }
     }
-    Ok(followers)
+    Ok(rules)
 }
 
 /// Returns whether a joint is `other` or follows it directly or indirectly.
-fn follows(followers: &HashMap<&str, Follower<'_>>, joint: &str, other: &str) -> bool {
-    let mut at = joint;
-    while at != other {
-        match followers.get(at) {
-            Some(follower) => at = follower.leader,
-            None => return false,
+fn follows(rules: &MimicRules<'_>, joint: &str, other: &str) -> bool {
+    let mut followed = joint;
+    while followed != other {
+        match rules.get(followed) {
+            Some(PositionRule::Follows { joint, .. }) => followed = joint,
+            _ => return false,
         }
     }
     true

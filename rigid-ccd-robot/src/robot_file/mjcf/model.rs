@@ -22,22 +22,6 @@ pub(in crate::robot_file) struct MjcfModel {
     constraints: Vec<Attributes>,
 }
 
-/// Sections that are unrelated to shapes, joints and pairs, or that other modules read.
-const OTHER_SECTIONS: [&str; 12] = [
-    "actuator",
-    "asset",
-    "compiler",
-    "custom",
-    "default",
-    "extension",
-    "keyframe",
-    "option",
-    "sensor",
-    "size",
-    "statistic",
-    "visual",
-];
-
 impl MjcfModel {
     /// Parses the text of a file. Included files are relative to a folder.
     pub(in crate::robot_file) fn from_text(
@@ -54,25 +38,24 @@ impl MjcfModel {
             match section.name.as_str() {
                 "contact" => {
                     for element in &section.children {
-                        let own = classes.merged(element, None)?;
-                        names.add(&element.name, own.name("name"))?;
-                        constraints.push(own);
+                        let attributes = classes.merged(element, None)?;
+                        names.add(&element.name, attributes.name("name"))?;
+                        constraints.push(attributes);
                     }
                 }
                 // Classes list all kinds of equalities under one name.
                 "equality" => {
                     for element in &section.children {
-                        let own = classes.merged_as("equality", element, None)?;
-                        names.add("equality", own.name("name"))?;
+                        let attributes = classes.merged_as("equality", element, None)?;
+                        names.add("equality", attributes.name("name"))?;
                         if settings.has_equalities {
-                            constraints.push(own);
+                            constraints.push(attributes);
                         }
                     }
                 }
-                // A tendon is not a shape. It may couple two joints; they are treated as independent.
-                "worldbody" | "tendon" => {}
-                other if OTHER_SECTIONS.contains(&other) => {}
-                _ => return Err(section.unknown_in("mujoco").into()),
+                // Other modules read the other sections, or they are unrelated to shapes, joints and pairs. A tendon
+                // may couple two joints, which are treated as independent.
+                _ => {}
             }
         }
         let bodies = read_bodies(&root, &settings, &classes)?;
@@ -103,6 +86,6 @@ impl MjcfModel {
     pub(super) fn constraints_named(&self, element: &str) -> impl Iterator<Item = &Attributes> {
         self.constraints
             .iter()
-            .filter(move |own| own.element == element)
+            .filter(move |constraint| constraint.element == element)
     }
 }

@@ -8,24 +8,26 @@ use rigid_ccd::Pose;
 use rigid_ccd::glam::{DMat3, DQuat, DVec3};
 
 /// Reads the pose of an element from its position and one of the rotation attributes.
-pub(super) fn read_pose(own: &Attributes, settings: &Settings) -> Result<Pose, MjcfError> {
-    let position = own.array("pos")?.unwrap_or([0.0; 3]);
-    Pose::new(position, read_rotation(own, settings)?).map_err(|_| own.invalid("pos"))
+pub(super) fn read_pose(attributes: &Attributes, settings: &Settings) -> Result<Pose, MjcfError> {
+    let position = attributes.array("pos")?.unwrap_or([0.0; 3]);
+    Pose::new(position, read_rotation(attributes, settings)?).map_err(|_| attributes.invalid("pos"))
 }
 
-fn read_rotation(own: &Attributes, settings: &Settings) -> Result<DQuat, MjcfError> {
-    let mut given = ORIENTATIONS.iter().filter(|name| own.get(name).is_some());
-    let Some(name) = given.next() else {
+fn read_rotation(attributes: &Attributes, settings: &Settings) -> Result<DQuat, MjcfError> {
+    let mut specified = ORIENTATIONS
+        .iter()
+        .filter(|name| attributes.get(name).is_some());
+    let Some(name) = specified.next() else {
         return Ok(DQuat::IDENTITY);
     };
-    let invalid = || own.invalid(name);
-    if given.next().is_some() {
+    let invalid = || attributes.invalid(name);
+    if specified.next().is_some() {
         return Err(invalid());
     }
-    let direction = |v: [f64; 3]| own.direction(name, DVec3::from_array(v));
-    let numbers = own.numbers(name)?.unwrap_or_default();
+    let direction = |v: [f64; 3]| attributes.direction(name, DVec3::from_array(v));
+    let numbers = attributes.numbers(name)?.unwrap_or_default();
     match (*name, &numbers[..]) {
-        ("quat", _) => own.quaternion(name)?.ok_or_else(invalid),
+        ("quat", _) => attributes.quaternion(name)?.ok_or_else(invalid),
         ("axisangle", &[x, y, z, angle]) => {
             let axis = direction([x, y, z])?;
             Ok(DQuat::from_axis_angle(axis, settings.radians(angle)))
@@ -46,26 +48,28 @@ fn read_rotation(own: &Attributes, settings: &Settings) -> Result<DQuat, MjcfErr
 pub(super) fn euler_rotation(angles: [f64; 3], settings: &Settings) -> DQuat {
     let mut rotation = DQuat::IDENTITY;
     for (axis, angle) in settings.euler_axes.into_iter().zip(angles) {
-        let along = match axis.to_ascii_lowercase() {
+        let axis_direction = match axis.to_ascii_lowercase() {
             'x' => DVec3::X,
             'y' => DVec3::Y,
             _ => DVec3::Z,
         };
-        let turn = DQuat::from_axis_angle(along, settings.radians(angle));
+        let axis_rotation = DQuat::from_axis_angle(axis_direction, settings.radians(angle));
         rotation = if axis.is_ascii_lowercase() {
-            rotation * turn
+            rotation * axis_rotation
         } else {
-            turn * rotation
+            axis_rotation * rotation
         };
     }
     rotation
 }
 
-/// Returns the smallest rotation that maps the z axis to a unit vector. Like MuJoCo's, it is about the x axis if the
-/// two are nearly parallel.
+/// Returns the smallest rotation that maps the z axis to a unit vector. As in MuJoCo, the rotation axis is x if the
+/// vector is nearly parallel to z.
 pub(super) fn rotation_of_z_to(axis: DVec3) -> DQuat {
-    let across = DVec3::Z.cross(axis);
-    let is_parallel = across.length() < 1e-10;
-    let along = unit(across).filter(|_| !is_parallel).unwrap_or(DVec3::X);
-    DQuat::from_axis_angle(along, across.length().atan2(axis.z))
+    let cross_product = DVec3::Z.cross(axis);
+    let is_parallel = cross_product.length() < 1e-10;
+    let rotation_axis = unit(cross_product)
+        .filter(|_| !is_parallel)
+        .unwrap_or(DVec3::X);
+    DQuat::from_axis_angle(rotation_axis, cross_product.length().atan2(axis.z))
 }

@@ -23,14 +23,14 @@ impl MjcfModel {
             .collect::<Result<_, _>>()?;
         let excluded = self.excluded_pairs()?;
         let mut pairs = LinkPairs::from_robot(robot);
-        for one in 0..links.len() {
-            for other in 0..one {
-                let [a, b] = [links[one], links[other]];
+        for body_a in 0..links.len() {
+            for body_b in 0..body_a {
+                let [a, b] = [links[body_a], links[body_b]];
                 pairs.include(a, b);
-                let reason = self.skip_reason([one, other], elements);
+                let reason = self.skip_reason([body_a, body_b], elements);
                 let exclude = || SkipReason::Disabled("exclude".to_owned());
                 let is_excluded =
-                    excluded.contains(&[one, other]) || excluded.contains(&[other, one]);
+                    excluded.contains(&[body_a, body_b]) || excluded.contains(&[body_b, body_a]);
                 if let Some(reason) = reason.or_else(|| is_excluded.then(exclude)) {
                     pairs.skip(a, b, reason);
                 }
@@ -78,21 +78,21 @@ impl MjcfModel {
     fn excluded_pairs(&self) -> Result<Vec<[usize; 2]>, MjcfError> {
         let excludes = self.constraints_named("exclude");
         excludes
-            .map(|own| {
-                let body = |name: &str| self.body_named(own.required_name(name)?);
+            .map(|exclude| {
+                let body = |name: &str| self.body_named(exclude.required_name(name)?);
                 Ok([body("body1")?, body("body2")?])
             })
             .collect()
     }
 
-    /// Returns why a pair of bodies is not checked; `None` if it is. `exclude` elements are not considered here.
+    /// Returns the reason why a pair of bodies is not checked; `None` if it is checked. Ignores `exclude` elements.
     fn skip_reason(&self, bodies: [usize; 2], elements: BodyElements) -> Option<SkipReason> {
         let [a, b] = bodies.map(|body| self.moving_ancestor(body));
         if a == b {
             return Some(SkipReason::NoMotion);
         }
         let parent = |body: usize| self.bodies[body].parent.unwrap_or(WORLD);
-        let is_child = |body: usize, of: usize| self.moving_ancestor(parent(body)) == of;
+        let is_child = |body: usize, other: usize| self.moving_ancestor(parent(body)) == other;
         let is_near_world = a == WORLD || b == WORLD;
         if self.settings.skips_parents && !is_near_world && (is_child(a, b) || is_child(b, a)) {
             return Some(SkipReason::Adjacent);
@@ -102,7 +102,7 @@ impl MjcfModel {
             .then(|| SkipReason::Disabled("contype and conaffinity".to_owned()))
     }
 
-    /// Returns the nearest body with joints, starting at `body` itself and going up; the world if there is none.
+    /// Returns the nearest body with joints among a body and its ancestors; the world if there is none.
     fn moving_ancestor(&self, mut body: usize) -> usize {
         while self.bodies[body].joints.is_empty() {
             match self.bodies[body].parent {

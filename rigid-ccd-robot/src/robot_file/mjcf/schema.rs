@@ -3,46 +3,33 @@
 use super::document::Element;
 use crate::robot_file::mjcf_error::MjcfError;
 
-/// The elements that another element may contain, with the names of their attributes.
-type Known = &'static [(&'static str, Attributes)];
+/// Elements whose attributes and children are checked: each with lists of its attributes, separated by spaces.
+type Checked = &'static [(&'static str, &'static [&'static str])];
 
-enum Attributes {
-    /// The attributes in these space-separated lists.
-    Of(&'static [&'static str]),
-    /// Any attributes: the element is unrelated to shapes, joints and pairs, or rejected elsewhere.
-    Any,
-}
-
-/// Rejects elements and attributes that MJCF does not have. Elements that are unrelated to shapes, joints and pairs
-/// are skipped.
+/// Rejects elements and attributes that MJCF does not have, and elements that are not supported. Elements that are
+/// unrelated to shapes, joints and pairs are not checked.
 pub(super) fn check(root: &Element) -> Result<(), MjcfError> {
-    check_attributes(root, &Attributes::Of(&["model"]))?;
+    check_attributes(root, &["model"])?;
     check_children(root)
 }
 
 fn check_children(element: &Element) -> Result<(), MjcfError> {
-    let Some(known) = allowed_children(&element.name) else {
-        return Ok(());
-    };
+    let (checked, unchecked) = allowed_children(&element.name);
     for child in &element.children {
-        let Some((_, attributes)) = known.iter().find(|(name, _)| *name == child.name) else {
-            return Err(child.unknown_in(&element.name));
-        };
-        check_attributes(child, attributes)?;
-        if let Attributes::Of(_) = attributes {
+        if let Some((_, attributes)) = checked.iter().find(|(name, _)| *name == child.name) {
+            check_attributes(child, attributes)?;
             check_children(child)?;
+        } else if !unchecked.split(' ').any(|name| name == child.name) {
+            return Err(child.unknown_in(&element.name));
         }
     }
     Ok(())
 }
 
-fn check_attributes(element: &Element, known: &Attributes) -> Result<(), MjcfError> {
-    let Attributes::Of(lists) = known else {
-        return Ok(());
-    };
+fn check_attributes(element: &Element, lists: &[&str]) -> Result<(), MjcfError> {
     let is_known = |name: &&str| {
-        let mut all = lists.iter().flat_map(|list| list.split_whitespace());
-        all.any(|own| own == *name)
+        let mut known = lists.iter().flat_map(|list| list.split_whitespace());
+        known.any(|known| known == *name)
     };
     match element.attributes.names().find(|name| !is_known(name)) {
         None => Ok(()),
@@ -50,145 +37,97 @@ fn check_attributes(element: &Element, known: &Attributes) -> Result<(), MjcfErr
     }
 }
 
-/// Returns the elements that an element may contain; `None` if this is not checked here.
-fn allowed_children(parent: &str) -> Option<Known> {
+/// Returns the elements that an element may contain: those that are checked, and a list of those that are not, because
+/// they are unrelated to shapes, joints and pairs.
+fn allowed_children(parent: &str) -> (Checked, &'static str) {
     match parent {
-        "mujoco" => Some(SECTIONS),
-        "compiler" => Some(&[("lengthrange", Attributes::Any)]),
-        "option" => Some(&[("flag", Attributes::Of(&[FLAG]))]),
-        "default" => Some(DEFAULTS),
-        "asset" => Some(ASSETS),
-        "worldbody" | "body" | "frame" | "replicate" => Some(BODY),
-        "geom" | "mesh" => Some(&[("plugin", Attributes::Any)]),
-        "contact" => Some(CONTACTS),
-        "equality" => Some(EQUALITIES),
-        _ => Some(&[]),
+        "mujoco" => (
+            SECTIONS,
+            "actuator custom extension keyframe sensor size statistic tendon visual",
+        ),
+        "compiler" => (&[], "lengthrange"),
+        "option" => (&[("flag", &[FLAG])], ""),
+        "default" => (
+            DEFAULTS,
+            "adhesion camera cylinder damper dcmotor general intvelocity light material motor muscle orientation pid \
+             plugin position site tendon texture velocity",
+        ),
+        "asset" => (ASSETS, "material model skin texture"),
+        "worldbody" | "body" | "frame" | "replicate" => (BODY, "camera inertial light plugin site"),
+        "geom" | "mesh" => (&[], "plugin"),
+        "contact" => (CONTACTS, ""),
+        "equality" => (EQUALITIES, "flex flexstrain flexvert"),
+        _ => (&[], ""),
     }
 }
 
-const SECTIONS: Known = &[
-    ("compiler", Attributes::Of(&[COMPILER])),
-    ("option", Attributes::Of(&[OPTION])),
-    ("default", Attributes::Of(&["class"])),
-    ("asset", Attributes::Of(&[])),
-    ("worldbody", Attributes::Of(&[])),
-    ("contact", Attributes::Of(&[])),
-    ("equality", Attributes::Of(&[])),
-    ("deformable", Attributes::Any),
-    ("actuator", Attributes::Any),
-    ("custom", Attributes::Any),
-    ("extension", Attributes::Any),
-    ("keyframe", Attributes::Any),
-    ("sensor", Attributes::Any),
-    ("size", Attributes::Any),
-    ("statistic", Attributes::Any),
-    ("tendon", Attributes::Any),
-    ("visual", Attributes::Any),
+const SECTIONS: Checked = &[
+    ("compiler", &[COMPILER]),
+    ("option", &[OPTION]),
+    ("default", &["class"]),
+    ("asset", &[]),
+    ("worldbody", &[]),
+    ("contact", &[]),
+    ("equality", &[]),
 ];
 
-const DEFAULTS: Known = &[
-    ("default", Attributes::Of(&["class"])),
-    ("mesh", Attributes::Of(&[MESH])),
-    ("joint", Attributes::Of(&[JOINT])),
-    ("geom", Attributes::Of(&[GEOM, ORIENTATION])),
-    ("pair", Attributes::Of(&[PAIR])),
-    ("equality", Attributes::Of(&[EQUALITY])),
-    ("adhesion", Attributes::Any),
-    ("camera", Attributes::Any),
-    ("cylinder", Attributes::Any),
-    ("damper", Attributes::Any),
-    ("dcmotor", Attributes::Any),
-    ("general", Attributes::Any),
-    ("intvelocity", Attributes::Any),
-    ("light", Attributes::Any),
-    ("material", Attributes::Any),
-    ("motor", Attributes::Any),
-    ("muscle", Attributes::Any),
-    ("orientation", Attributes::Any),
-    ("pid", Attributes::Any),
-    ("plugin", Attributes::Any),
-    ("position", Attributes::Any),
-    ("site", Attributes::Any),
-    ("tendon", Attributes::Any),
-    ("texture", Attributes::Any),
-    ("velocity", Attributes::Any),
+const DEFAULTS: Checked = &[
+    ("default", &["class"]),
+    ("mesh", &[MESH]),
+    ("joint", &[JOINT]),
+    ("geom", &[GEOM, ORIENTATION]),
+    ("pair", &[PAIR]),
+    ("equality", &[EQUALITY]),
 ];
 
-const ASSETS: Known = &[
+const ASSETS: Checked = &[
     (
         "mesh",
-        Attributes::Of(&[
+        &[
             MESH,
             "builtin class content_type face file material name normal params refpos refquat smoothnormal texcoord vertex",
-        ]),
+        ],
     ),
     (
         "hfield",
-        Attributes::Of(&["content_type elevation file name ncol nrow size"]),
+        &["content_type elevation file name ncol nrow size"],
     ),
-    ("material", Attributes::Any),
-    ("model", Attributes::Any),
-    ("skin", Attributes::Any),
-    ("texture", Attributes::Any),
 ];
 
-const BODY: Known = &[
+const BODY: Checked = &[
     (
         "body",
-        Attributes::Of(&[
+        &[
             "childclass fuse gravcomp mocap name pos simple sleep user",
             ORIENTATION,
-        ]),
+        ],
     ),
-    (
-        "frame",
-        Attributes::Of(&["childclass name pos", ORIENTATION]),
-    ),
-    (
-        "replicate",
-        Attributes::Of(&["childclass count euler offset sep"]),
-    ),
-    ("joint", Attributes::Of(&["class name", JOINT])),
-    ("freejoint", Attributes::Of(&["align group name"])),
-    ("geom", Attributes::Of(&["class name", GEOM, ORIENTATION])),
-    ("attach", Attributes::Any),
-    ("camera", Attributes::Any),
-    ("composite", Attributes::Any),
-    ("flexcomp", Attributes::Any),
-    ("inertial", Attributes::Any),
-    ("light", Attributes::Any),
-    ("plugin", Attributes::Any),
-    ("site", Attributes::Any),
+    ("frame", &["childclass name pos", ORIENTATION]),
+    ("replicate", &["childclass count euler offset sep"]),
+    ("joint", &["class name", JOINT]),
+    ("freejoint", &["align group name"]),
+    ("geom", &["class name", GEOM, ORIENTATION]),
 ];
 
-const CONTACTS: Known = &[
-    ("pair", Attributes::Of(&["class geom1 geom2 name", PAIR])),
-    ("exclude", Attributes::Of(&["body1 body2 name"])),
+const CONTACTS: Checked = &[
+    ("pair", &["class geom1 geom2 name", PAIR]),
+    ("exclude", &["body1 body2 name"]),
 ];
 
-const EQUALITIES: Known = &[
+const EQUALITIES: Checked = &[
     (
         "connect",
-        Attributes::Of(&["anchor body1 body2 class name site1 site2", EQUALITY]),
+        &["anchor body1 body2 class name site1 site2", EQUALITY],
     ),
     (
         "weld",
-        Attributes::Of(&[
+        &[
             "anchor body1 body2 class name relpose site1 site2 torquescale",
             EQUALITY,
-        ]),
+        ],
     ),
-    (
-        "joint",
-        Attributes::Of(&["class joint1 joint2 name polycoef", EQUALITY]),
-    ),
-    (
-        "tendon",
-        Attributes::Of(&["class name polycoef tendon1 tendon2", EQUALITY]),
-    ),
-    ("flex", Attributes::Any),
-    ("flexstrain", Attributes::Any),
-    ("flexvert", Attributes::Any),
+    ("joint", &["class joint1 joint2 name polycoef", EQUALITY]),
+    ("tendon", &["class name polycoef tendon1 tendon2", EQUALITY]),
 ];
 
 const COMPILER: &str = "alignfree angle assetdir autolimits balanceinertia boundinertia boundmass conflict coordinate \

@@ -18,7 +18,7 @@ pub(super) struct Settings {
     pub(super) skips_parents: bool,
     pub(super) has_limits: bool,
     pub(super) has_equalities: bool,
-    /// Whether the margin of the options replaces those of geoms and pairs.
+    /// Whether the margin of the options replaces the margins of geoms and pairs.
     overrides_margins: bool,
     margin: f64,
     mesh_folder: PathBuf,
@@ -41,17 +41,20 @@ impl Settings {
             mesh_folder: folder.to_owned(),
             strips_paths: false,
         };
-        let compilers = root.children.iter().filter(|own| own.name == "compiler");
-        let compilers: Vec<&Attributes> = compilers.map(|own| &own.attributes).collect();
+        let compilers = root
+            .children
+            .iter()
+            .filter(|section| section.name == "compiler");
+        let compilers: Vec<&Attributes> = compilers.map(|section| &section.attributes).collect();
         for compiler in &compilers {
-            settings.set(compiler)?;
+            settings.set_compiler(compiler)?;
         }
         // The last folder counts, even if empty. Within one element, `meshdir` takes precedence over `assetdir`.
         let mut folders = compilers
             .iter()
-            .filter_map(|own| own.get("meshdir").or(own.get("assetdir")));
-        if let Some(own) = folders.next_back() {
-            settings.mesh_folder = folder.join(own);
+            .filter_map(|compiler| compiler.get("meshdir").or(compiler.get("assetdir")));
+        if let Some(mesh_folder) = folders.next_back() {
+            settings.mesh_folder = folder.join(mesh_folder);
         }
         settings.set_options(root)?;
         Ok(settings)
@@ -60,7 +63,7 @@ impl Settings {
     /// Reads the options and their flags. The last value of a name counts.
     fn set_options(&mut self, root: &Element) -> Result<(), MjcfError> {
         let mut has_constraints = true;
-        for flag in children_of_sections(root, "option").filter(|own| own.name == "flag") {
+        for flag in children_of_sections(root, "option").filter(|element| element.name == "flag") {
             let flag = &flag.attributes;
             for (name, value) in [
                 ("filterparent", &mut self.skips_parents),
@@ -77,7 +80,11 @@ impl Settings {
                 }
             }
         }
-        for option in root.children.iter().filter(|own| own.name == "option") {
+        for option in root
+            .children
+            .iter()
+            .filter(|section| section.name == "option")
+        {
             [self.margin] = option
                 .attributes
                 .array("o_margin")?
@@ -88,24 +95,27 @@ impl Settings {
         Ok(())
     }
 
-    fn set(&mut self, compiler: &Attributes) -> Result<(), MjcfError> {
+    fn set_compiler(&mut self, compiler: &Attributes) -> Result<(), MjcfError> {
         match compiler.get("angle") {
             Some("radian") => self.has_degrees = false,
             Some("degree") => self.has_degrees = true,
             None => {}
             Some(_) => return Err(compiler.invalid("angle")),
         }
-        if compiler.get("coordinate").is_some_and(|own| own != "local") {
+        if compiler
+            .get("coordinate")
+            .is_some_and(|coordinate| coordinate != "local")
+        {
             return Err(compiler.invalid("coordinate"));
         }
         if let Some(text) = compiler.get("eulerseq") {
             let axes: Vec<char> = text.chars().collect();
-            let known = |axis: &char| "xyzXYZ".contains(*axis);
+            let is_axis = |axis: &char| "xyzXYZ".contains(*axis);
             let [a, b, c] = axes[..] else {
                 return Err(compiler.invalid("eulerseq"));
             };
             self.euler_axes = [a, b, c];
-            if !self.euler_axes.iter().all(known) {
+            if !self.euler_axes.iter().all(is_axis) {
                 return Err(compiler.invalid("eulerseq"));
             }
         }
@@ -115,7 +125,7 @@ impl Settings {
         Ok(())
     }
 
-    /// Returns the margin that replaces those of geoms and pairs; `None` if theirs apply.
+    /// Returns the margin that replaces the margins of geoms and pairs; `None` if these are not replaced.
     pub(super) fn margin(&self) -> Option<f64> {
         self.overrides_margins.then_some(self.margin)
     }

@@ -1,14 +1,15 @@
 //! URDF elements whose attributes and children are validated.
 
-use super::vocabulary::{Vocabulary, vocabulary_of};
+use super::vocabulary::{Vocabulary, contains, vocabulary_of};
 use crate::remark::CellRemark;
+use crate::robot_file::parse_xml;
 use crate::robot_file::urdf_error::UrdfError;
-use roxmltree::{Document, Error, Node, ParsingOptions};
+use roxmltree::{Document, Error, Node};
 
 /// The namespace prefix of elements that xacro has to expand before the file is a URDF.
 const XACRO: &str = "xacro";
 
-/// The largest number of undeclared namespace prefixes in a file. Some programs use their own without declaring them.
+/// The largest number of undeclared namespace prefixes in a file. Some programs write prefixes without declaring them.
 const MAX_UNDECLARED_PREFIXES: usize = 16;
 
 /// A validated element.
@@ -30,21 +31,16 @@ pub(super) fn with_declared_prefixes(text: &str) -> Result<String, String> {
         };
         text = text.replacen("<robot", &format!("<robot xmlns:{prefix}=\"{prefix}\""), 1);
     }
-    parse(&text).map(|_| String::new())
-}
-
-/// Parses an XML text.
-pub(super) fn parse(text: &str) -> Result<Document<'_>, String> {
-    Document::parse_with_options(text, ParsingOptions::default()).map_err(|error| error.to_string())
+    parse_xml(&text).map(|_| String::new())
 }
 
 impl<'t> Element<'t> {
     /// Returns the root element of a document.
     pub(super) fn root(document: &'t Document<'t>) -> Result<Self, UrdfError> {
         let root = document.root_element();
-        if let Some(own) = root.descendants().find(|own| is_of_xacro(*own)) {
-            let element = format!("{XACRO}:{}", own.tag_name().name());
-            return Err(UrdfError::Xacro { found: element });
+        if let Some(node) = root.descendants().find(|node| is_of_xacro(*node)) {
+            let element = format!("{XACRO}:{}", node.tag_name().name());
+            return Err(UrdfError::Xacro { text: element });
         }
         let name = root.tag_name().name();
         if name != "robot" {
@@ -68,12 +64,12 @@ impl<'t> Element<'t> {
             let value = attribute.value();
             if value.contains("${") || value.contains("$(") {
                 return Err(UrdfError::Xacro {
-                    found: value.to_owned(),
+                    text: value.to_owned(),
                 });
             }
             // Attributes with a prefix belong to other programs.
             let is_known = attribute.namespace().is_some()
-                || vocabulary.attributes.contains(&attribute.name());
+                || contains(vocabulary.attributes, attribute.name());
             if !is_known {
                 return Err(UrdfError::UnknownAttribute {
                     element: name.to_owned(),
@@ -88,26 +84,26 @@ impl<'t> Element<'t> {
         self.node.tag_name().name()
     }
 
-    /// Returns the children that are read, in order. Rejects unknown children. Adds a remark for each ignored child
-    /// that other programs may use.
+    /// Returns the children that are not ignored, in order. Rejects unknown children. Adds a remark for each ignored
+    /// child that other programs may use.
     pub(super) fn children(
         &self,
         remarks: &mut Vec<CellRemark>,
     ) -> Result<Vec<Element<'t>>, UrdfError> {
-        let mut read = Vec::new();
+        let mut children = Vec::new();
         for child in self.node.children().filter(Node::is_element) {
             let name = child.tag_name().name();
-            if prefix(child).is_some() || self.vocabulary.left_out.contains(&name) {
+            if prefix(child).is_some() || contains(self.vocabulary.left_out, name) {
                 remarks.push(CellRemark::left_out(format!(
                     "{} in {}",
                     qualified_name(child),
                     self.label()
                 )));
-            } else if !self.vocabulary.harmless.contains(&name) {
-                read.push(Element::new(child, self.name())?);
+            } else if !contains(self.vocabulary.harmless, name) {
+                children.push(Element::new(child, self.name())?);
             }
         }
-        Ok(read)
+        Ok(children)
     }
 
     /// Returns an attribute; `None` if it is absent.
@@ -137,13 +133,13 @@ impl<'t> Element<'t> {
             .map(|number| number.parse().ok());
         let numbers: Option<Vec<f64>> = numbers.collect();
         let numbers = numbers.and_then(|numbers| <[f64; COUNT]>::try_from(numbers).ok());
-        let wanted = match COUNT {
+        let required = match COUNT {
             1 => "a number".to_owned(),
             count => format!("{count} numbers"),
         };
         numbers
             .map(Some)
-            .ok_or_else(|| self.invalid(attribute, &wanted))
+            .ok_or_else(|| self.invalid(attribute, &required))
     }
 
     /// Parses an attribute that must be present as a number.
@@ -154,12 +150,12 @@ impl<'t> Element<'t> {
     }
 
     /// Creates the error for an attribute with an invalid value.
-    pub(super) fn invalid(&self, attribute: &str, wanted: &str) -> UrdfError {
+    pub(super) fn invalid(&self, attribute: &str, required: &str) -> UrdfError {
         UrdfError::InvalidAttribute {
             element: self.name().to_owned(),
             attribute: attribute.to_owned(),
             value: self.get(attribute).unwrap_or_default().to_owned(),
-            wanted: wanted.to_owned(),
+            required: required.to_owned(),
         }
     }
 

@@ -165,7 +165,7 @@ fn what_is_not_known_is_refused() {
         (
             "<robot name=\"arm\"",
             "<robot name=\"arm\" version=\"9.9\"",
-            "version=\"9.9\" of URDF is not known",
+            "version=\"9.9\" of URDF is not supported",
         ),
         (
             "<robot name=\"arm\"",
@@ -185,17 +185,17 @@ fn what_is_not_known_is_refused() {
         (
             "</robot>",
             "<xacro:arm/></robot>",
-            "`xacro:arm` is of xacro",
+            "`xacro:arm` belongs to xacro",
         ),
         (
             "</robot>",
             "<m:macro xmlns:m=\"http://ros.org/wiki/xacro\"/></robot>",
-            "`xacro:macro` is of xacro",
+            "`xacro:macro` belongs to xacro",
         ),
         (
             "xyz=\"0 0 1\" rpy=\"0 0 0.5\"",
             "xyz=\"0 0 ${height}\"",
-            "joint `elbow`: `0 0 ${height}` is of xacro",
+            "joint `elbow`: `0 0 ${height}` belongs to xacro",
         ),
     ] {
         let text = ARM.replacen(given, instead, 1);

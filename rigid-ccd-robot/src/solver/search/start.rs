@@ -1,9 +1,9 @@
 //! The start policy [`StartPolicy::Leave`]: pairs in contact at the start are ignored as long as they do not come
 //! nearer.
 //!
-//! A pair with a gap at the start must keep half of it. A pair without a gap is first followed in short steps, in
-//! which the joints move it almost like a constant motion. The engine decides each step under the same policy. As soon
-//! as there is a gap after a step, the pair is searched like the others, from there on.
+//! A pair with a gap at the start must keep half of its gap. A pair without a gap is first followed in short steps, so
+//! short that its relative motion is almost a motion at constant velocity. The engine decides each step under the same
+//! policy. If there is a gap after a step, the rest of the path is searched for this pair as for all others.
 
 use super::PathSearch;
 use crate::path::interval::{PathInterval, StepResult};
@@ -21,19 +21,19 @@ use rigid_ccd::{
 };
 use std::ops::ControlFlow::{self, Break, Continue};
 
-/// How far pairs without a gap may approach in total, because steps are approximated by constant motions: a fraction
-/// of the tolerance, and at least a multiple of the rounding error of poses.
+/// The distance by which a pair without a gap may approach in all steps together, because motions at constant velocity
+/// approximate the steps: a fraction of the tolerance, and at least a multiple of the rounding error of poses.
 const SINKING_PER_TOLERANCE: f64 = 1e-6;
 const SINKING_PER_ROUNDING: f64 = 1024.0;
 
-/// The smallest usable gap, as a multiple of the rounding error of poses. A pair with a larger gap is searched like
-/// others.
+/// The smallest usable gap, as a multiple of the rounding error of poses. A pair with a larger gap is searched like the
+/// other pairs.
 const LEAST_GAP_PER_ROUNDING: f64 = 64.0;
 
 /// A pair of bodies in contact at the start that is ignored while it separates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StartContact {
-    /// Any pair of their parts.
+    /// Any pair of parts of both bodies.
     pair: PartPair,
     bodies: [usize; 2],
     /// The point up to which the pair is proven not to come nearer; infinity for the whole path.
@@ -43,8 +43,8 @@ pub(crate) struct StartContact {
     tolerance: f64,
 }
 
-/// The result of measuring two bodies: a lower bound of their distance, whether they overlap, and a limit that left
-/// this undecided.
+/// The result of measuring two bodies: a lower bound of their distance, whether they overlap, and the limit that was
+/// reached before this was decided.
 struct Gap {
     lower: f64,
     overlaps: bool,
@@ -74,7 +74,7 @@ impl PathSearch<'_> {
         }
         for index in 0..self.start_contacts.len() {
             if self.result.limit_reached.is_some() || self.is_decided() {
-                // The remaining pairs are proven up to the points to which they were followed.
+                // The remaining pairs are proven not to touch up to the points to which they were followed.
                 let until = earliest_start(self, index);
                 if let Some((_, known)) = &mut self.result.limit_reached {
                     *known = lesser(*known, until);
@@ -271,8 +271,8 @@ impl PathSearch<'_> {
         self.result.nearest = None;
     }
 
-    /// Returns whether a pair with this distance usable_gap its margin can be searched like others. Written so that NaN
-    /// cannot.
+    /// Returns whether a pair with this gap beyond its margin can be searched like the other pairs. Written so that the
+    /// result is false for NaN.
     fn is_gap_usable(&self, usable_gap: f64) -> bool {
         usable_gap > LEAST_GAP_PER_ROUNDING * self.placement.rounding
     }

@@ -282,9 +282,9 @@ fn a_file_that_is_missing_is_named() {
     let error = RobotFile::from_text(text, Path::new("model.xml"))
         .read()
         .unwrap_err();
-    let RobotFileError::Link { link, .. } = &error else {
+    let RobotFileError::Within { kind, name, .. } = &error else {
         panic!("{error}");
     };
-    assert_eq!(link, "world");
+    assert_eq!([*kind, name], ["link", "world"]);
     assert!(error.to_string().contains("none.stl"), "{error}");
 }

@@ -547,7 +547,7 @@ fn meshes_with_hollows_are_noted() {
         assert!(
             message
                 .iter()
-                .all(|own| own.ends_with("with the convex hull: m")),
+                .all(|own| own.ends_with("uses their convex hulls: m")),
             "{message:?}"
         );
         assert!(!exact.file_remarks().iter().any(CellRemark::is_warning));

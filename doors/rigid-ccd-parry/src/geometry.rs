@@ -74,23 +74,28 @@ impl ShapeGeometry {
         let Some((round, radius, excess)) = &self.grown_solid_of_revolution else {
             return Ok(Cow::Borrowed(self));
         };
-        let about = polytope_around(round, *excess)?;
-        let (triangles, numbers) = about.triangles();
+        let enclosing = polytope_around(round, *excess)?;
+        let (triangles, face_indices) = enclosing.triangles();
         let has_surface = *radius == 0.0 && !triangles.is_empty();
-        let turned = |point: &DVec3| DVec3::new(point.y, point.z, point.x);
+        let to_parry_axes = |point: &DVec3| DVec3::new(point.y, point.z, point.x);
         let polytope = Polytope {
             // The engine's axis is z, parry's is y.
-            points: about.polytope().points.iter().map(turned).collect(),
+            points: enclosing
+                .polytope()
+                .points
+                .iter()
+                .map(to_parry_axes)
+                .collect(),
             radius: *radius,
-            ..about.polytope().clone()
+            ..enclosing.polytope().clone()
         };
         Ok(Cow::Owned(ShapeGeometry {
             parts: vec![Part {
                 polytope,
                 sub_shape_index: 0,
             }],
-            excess: about.excess(),
-            surface: has_surface.then_some((triangles, numbers)),
+            excess: enclosing.excess(),
+            surface: has_surface.then_some((triangles, face_indices)),
             ..ShapeGeometry::EMPTY
         }))
     }
@@ -181,17 +186,17 @@ impl ShapeGeometry {
         number: u32,
     ) -> Result<(), ShapeError> {
         let inner = inner.with_enclosing_polytope()?;
-        let place = |point: &DVec3| pose.transform_point(*point);
+        let to_outer = |point: &DVec3| pose.transform_point(*point);
         let reach = (inner.points()).fold(0.0, |most, point| greater(most, length(*point)));
-        let moved = if *pose == Pose::IDENTITY {
+        let rounding = if *pose == Pose::IDENTITY {
             0.0
         } else {
             POSE_ROUNDING * (reach + length(pose.translation()))
         };
-        let vertices = inner.vertices.iter().map(place);
+        let vertices = inner.vertices.iter().map(to_outer);
         self.push_triangles(vertices, &inner.triangles, repeat(number));
         for Part { polytope, .. } in &inner.parts {
-            let points = polytope.points.iter().map(place).collect();
+            let points = polytope.points.iter().map(to_outer).collect();
             let polytope = Polytope {
                 points,
                 ..polytope.clone()
@@ -201,7 +206,7 @@ impl ShapeGeometry {
                 sub_shape_index: number,
             });
         }
-        self.slack = greater(self.slack, inner.slack + moved);
+        self.slack = greater(self.slack, inner.slack + rounding);
         self.excess = greater(self.excess, inner.excess);
         Ok(())
     }
@@ -224,13 +229,13 @@ impl ShapeGeometry {
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
                 (low.min(*p), high.max(*p))
             });
-        let middle = 0.5 * low + 0.5 * high;
+        let center = 0.5 * low + 0.5 * high;
         let of_part = |part: &Part| {
-            max_distance_from(part.polytope.points.iter(), middle) + part.polytope.radius
+            max_distance_from(part.polytope.points.iter(), center) + part.polytope.radius
         };
         let parts = self.parts.iter().map(of_part).fold(0.0, greater);
-        let radius = greater(parts, max_distance_from(self.vertices.iter(), middle));
-        (middle, radius * crate::tolerance::ROUNDING_ENLARGEMENT)
+        let radius = greater(parts, max_distance_from(self.vertices.iter(), center));
+        (center, radius * crate::tolerance::ROUNDING_ENLARGEMENT)
     }
 
     /// Returns the center if the geometry is a single ball; `None` for other geometries.
@@ -254,7 +259,7 @@ impl ShapeGeometry {
     /// # Errors
     /// [`ShapeError::Piece`] that names the sub-shape, [`ShapeError::Body`].
     pub(crate) fn body(&self) -> Result<(Body, Vec<u32>), ShapeError> {
-        let made = match (&self.parts[..], self.triangles.is_empty()) {
+        let result = match (&self.parts[..], self.triangles.is_empty()) {
             (parts, true) => self.body_of_parts(parts),
             ([], false) => Pieces::from_triangles(
                 &self.vertices,
@@ -264,10 +269,11 @@ impl ShapeGeometry {
             .and_then(|pieces| Body::new(&pieces, self.volume)),
             (parts, false) => self.body_of_parts(&self.parts_and_triangles(parts)),
         };
-        let body = made.map_err(|error| self.shape_error(error))?;
-        let numbers = (0..body.pieces().len()).map(|k| self.sub_shape_index_of_piece(&body, k));
-        let numbers = numbers.collect();
-        Ok((body, numbers))
+        let body = result.map_err(|error| self.shape_error(error))?;
+        let sub_shape_indices =
+            (0..body.pieces().len()).map(|k| self.sub_shape_index_of_piece(&body, k));
+        let sub_shape_indices = sub_shape_indices.collect();
+        Ok((body, sub_shape_indices))
     }
 
     fn body_of_parts(&self, parts: &[Part]) -> Result<Body, InputError> {
@@ -287,13 +293,13 @@ impl ShapeGeometry {
             ..part.polytope.clone()
         };
         let pieces = Pieces::from_polytopes(&parts.iter().map(numbered).collect::<Vec<_>>())?;
-        // Each piece is filled by itself.
+        // Each convex piece is solid, also as a part of a surface.
         Body::new(&pieces, Solidity::Surface)
     }
 
     /// Returns the given parts, followed by the triangles, each as a part of its own.
     fn parts_and_triangles(&self, parts: &[Part]) -> Vec<Part> {
-        // A vertex that does not exist is refused as a point that is not finite.
+        // A missing vertex becomes NaN, which the engine refuses.
         let corner = |v: &u32| *self.vertices.get(*v as usize).unwrap_or(&DVec3::NAN);
         let of_face = |(face, number): (&[u32; 3], &u32)| Part {
             polytope: Polytope {
@@ -360,26 +366,28 @@ fn polytope_around(
     round: &SolidOfRevolution,
     excess: Excess,
 ) -> Result<EnclosingPolytope, ShapeError> {
-    let asked = match excess {
+    let requested_excess = match excess {
         Excess::DefaultRadiusFraction => round.default_excess(),
         Excess::Length(length) => length,
         Excess::NotAllowed => return Err(ShapeError::SolidOfRevolutionRefused),
     };
     // Written so that NaN is refused.
-    if !(asked >= 0.0) {
+    if !(requested_excess >= 0.0) {
         return Err(ShapeError::InvalidSize {
             what: "excess",
-            value: asked,
+            value: requested_excess,
         });
     }
-    let least = round.least_excess();
-    if asked < least {
+    let least_excess = round.least_excess();
+    if requested_excess < least_excess {
         Err(ShapeError::ExcessTooSmall {
-            requested_excess: asked,
-            least_excess: least,
+            requested_excess,
+            least_excess,
         })
     } else {
-        round.enclosing_polytope(asked).map_err(ShapeError::Body)
+        round
+            .enclosing_polytope(requested_excess)
+            .map_err(ShapeError::Body)
     }
 }
 

@@ -1,7 +1,7 @@
 use super::*;
 
-fn first_points_with_sub_shape_indices(form: &ShapeGeometry) -> Vec<(u32, DVec3)> {
-    let (body, numbers) = form.body().expect("a body");
+fn first_points_with_sub_shape_indices(geometry: &ShapeGeometry) -> Vec<(u32, DVec3)> {
+    let (body, numbers) = geometry.body().expect("a body");
     let pieces = body.pieces().iter().map(|piece| piece.points[0]);
     let mut at: Vec<(u32, DVec3)> = numbers.into_iter().zip(pieces).collect();
     at.sort_by_key(|(number, _)| *number);
@@ -43,10 +43,10 @@ fn pieces_keep_their_numbers_in_any_order() {
 
 #[test]
 fn a_mesh_that_names_a_missing_vertex_is_refused_by_its_face() {
-    let mut form = ShapeGeometry::EMPTY;
+    let mut geometry = ShapeGeometry::EMPTY;
     let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
-    form.push_triangles(corners, &[[0, 1, 2], [0, 1, 3]], 0..);
-    let error = form.body().expect_err("refused");
+    geometry.push_triangles(corners, &[[0, 1, 2], [0, 1, 3]], 0..);
+    let error = geometry.body().expect_err("refused");
     assert!(
         matches!(
             error,
@@ -59,7 +59,7 @@ fn a_mesh_that_names_a_missing_vertex_is_refused_by_its_face() {
     );
     let mut beside = ShapeGeometry::EMPTY;
     beside
-        .push_at_pose(&Pose::IDENTITY, &form, 7)
+        .push_at_pose(&Pose::IDENTITY, &geometry, 7)
         .expect("not looked at yet");
     beside.push_hull_of_points([DVec3::ZERO], 1.0, 0);
     let error = beside.body().expect_err("refused");
@@ -83,17 +83,17 @@ fn points_that_are_placed_are_off_by_no_more_than_the_slack() {
     let pose = Pose::new(far, [axis.x, axis.y, axis.z, 0.0]).expect("a pose");
     let mut inner = ShapeGeometry::EMPTY;
     inner.push_hull_of_points([axis, 5.0 * DVec3::X], 0.0, 0);
-    let mut form = ShapeGeometry::EMPTY;
-    form.push_at_pose(&pose, &inner, 0).expect("a part");
-    let (body, _) = form.body().expect("a body");
+    let mut geometry = ShapeGeometry::EMPTY;
+    geometry.push_at_pose(&pose, &inner, 0).expect("a part");
+    let (body, _) = geometry.body().expect("a body");
     // Points on the axis are fixed, and others are reflected: `2 a (a·x)/(a·a) − x`.
     let fraction = 2.0 * 5.0 * axis.x / axis.length_squared();
     let exact = [far + axis, far + (fraction * axis - 5.0 * DVec3::X)];
     for (point, exact) in body.pieces().points().iter().zip(exact) {
         let off = length(*point - exact);
-        assert!(off <= form.slack, "{off:e} of {:e}", form.slack);
+        assert!(off <= geometry.slack, "{off:e} of {:e}", geometry.slack);
     }
-    assert!(form.slack < 1e-7 && form.slack > 0.0);
+    assert!(geometry.slack < 1e-7 && geometry.slack > 0.0);
     let mut here = ShapeGeometry::EMPTY;
     here.push_at_pose(&Pose::IDENTITY, &inner, 0)
         .expect("a part");
@@ -102,10 +102,10 @@ fn points_that_are_placed_are_off_by_no_more_than_the_slack() {
 
 #[test]
 fn a_ball_is_about_all_points() {
-    let mut form = ShapeGeometry::EMPTY;
-    form.push_box(DVec3::ONE, 3.0 * DVec3::ONE, 0.5);
-    form.push_hull_of_points([DVec3::new(9.0, 2.0, 2.0)], 1.0, 0);
-    let (middle, radius) = form.enclosing_ball();
+    let mut geometry = ShapeGeometry::EMPTY;
+    geometry.push_box(DVec3::ONE, 3.0 * DVec3::ONE, 0.5);
+    geometry.push_hull_of_points([DVec3::new(9.0, 2.0, 2.0)], 1.0, 0);
+    let (middle, radius) = geometry.enclosing_ball();
     let far = [1.0, 3.0].map(|x| length(DVec3::new(x, 1.0, 1.0) - middle) + 0.5);
     assert!(far.iter().all(|far| radius >= *far) && radius >= 10.0 - middle.x);
     assert!(radius < 6.0);
