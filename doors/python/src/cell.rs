@@ -312,8 +312,8 @@ impl PyCell {
     }
 
     /// Answers a question about many paths, on all cores. `paths` is an array of shape (N, n, joints), or a list of
-    /// curves. The other arguments and the table are those of `edges`. Times are in segments: 1.5 is the middle of the
-    /// second segment. For curves, times are their own.
+    /// curves. The other arguments and the table are as for `answer_edges`. Times are in segments: 1.5 is the middle of the
+    /// second segment. On a curve, they are times of the curve.
     #[pyo3(signature = (paths, question = "is-free", *, threads = None, progress = None, **settings))]
     fn answer_paths(
         &self,

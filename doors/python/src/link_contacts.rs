@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// The arguments of `Robot.acm`.
+/// The arguments of `Robot.classify_link_contacts`.
 pub(crate) struct LinkContactQuestion<'a, 'py> {
     pub(crate) robot: &'a Robot,
     pub(crate) pairs: &'a LinkPairs,

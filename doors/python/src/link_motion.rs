@@ -15,7 +15,7 @@ use rigid_ccd_robot::{ChainBetween, Robot};
 /// points are accurate to the tolerance.
 #[pyclass(name = "LinkTrajectory", module = "rigid_ccd", frozen)]
 pub(crate) struct PyLinkTrajectory {
-    /// The Python object whose method `motion` made this motion.
+    /// The Python object whose method `link_trajectory` made this trajectory.
     robot: Py<PyAny>,
     motion_arguments: RobotMotionArguments,
     chain: ChainBetween,
@@ -42,7 +42,7 @@ impl PyLinkTrajectory {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        let make = slf.get().robot.bind(slf.py()).getattr("motion")?;
+        let make = slf.get().robot.bind(slf.py()).getattr("link_trajectory")?;
         Ok((
             make,
             slf.get().motion_arguments.clone().into_pyobject(slf.py())?,

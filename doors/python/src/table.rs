@@ -78,8 +78,7 @@ impl PyTable {
         Ok(PyTable { batch })
     }
 
-    /// Makes a table from its pickled form. Returns a table with one column of this table, then all columns of another
-    /// table of equal length.
+    /// Returns a table with one column of this table, then all columns of another table of equal length.
     fn _column_before(&self, name: &str, other: &Bound<'_, PyTable>) -> PyResult<Self> {
         let index = self.batch.schema().index_of(name).map_err(refuse)?;
         let (schema, others) = (self.batch.schema(), &other.get().batch);
@@ -93,6 +92,7 @@ impl PyTable {
         })
     }
 
+    /// Makes a table from its pickled form.
     #[classmethod]
     fn _from_bytes(
         class: &Bound<'_, PyType>,

@@ -1,4 +1,4 @@
-//! PosePath, and motions at constant velocities.
+//! Poses, and motions at constant velocities.
 
 use crate::arguments::{reference, store};
 use crate::status::{Failure, RccdStatus, status_of};

@@ -38,7 +38,7 @@ class EdgesQuery:
     """
 
     def __init__(
-        self, cell: Cell, ask: PathQuestion = "is-free", *, rest: Mapping[str, float] | None = None, **settings: Any
+        self, cell: Cell, question: PathQuestion = "is-free", *, rest: Mapping[str, float] | None = None, **settings: Any
     ) -> None:
         # A copy, so that later changes of the cell have no effect.
         self._cell: Cell = copy.copy(cell)

@@ -71,7 +71,7 @@ _Movement: TypeAlias = Motion | PosePath | LinkTrajectory
 class InputError(ValueError):
     results: Any
 
-class Unresolved(RuntimeError):
+class UnresolvedError(RuntimeError):
     results: Proof | list[Proof] | None
     safe_until: float | None
     lower: float | None
