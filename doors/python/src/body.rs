@@ -10,7 +10,9 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
 use rigid_ccd::body::{SolidOfRevolution, Solidity};
 use rigid_ccd::glam::DVec3;
-use rigid_ccd::mesh::{Adjustments, PieceChoice, StoreFault, StoredBodyContent, TriangleMesh, prepare};
+use rigid_ccd::mesh::{
+    Adjustments, PieceChoice, StoreFault, StoredBodyContent, TriangleMesh, prepare,
+};
 use rigid_ccd::text::Number;
 use rigid_ccd::{Body, Remark};
 use std::borrow::Cow;

@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyString;
 use rigid_ccd::Remark;
 use rigid_ccd::mesh::{
-    AdjustedStoredBody, Adjustments, Axis, PieceChoice, MeshSource, STORED_BODY_EXTENSION,
+    AdjustedStoredBody, Adjustments, Axis, MeshSource, PieceChoice, STORED_BODY_EXTENSION,
     StoredBodyContent, Unit, prepare,
 };
 use std::path::{Path, PathBuf};

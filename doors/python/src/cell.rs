@@ -1,6 +1,6 @@
 //! The Python class `Cell`.
 
-use crate::cell_contents::{Contact, PickledContents, UnpickledContents};
+use crate::cell_contents::{CellContents, Contact};
 use crate::cell_remarks::{remark_texts, warn_of, warning_text};
 use crate::cell_state::{CellState, read_body};
 use crate::errors::wrong_type_error;
@@ -86,7 +86,8 @@ impl PyCell {
 
     /// Moves an obstacle to a pose in the frame of the robot's base.
     fn move_obstacle(&self, name: &str, pose: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.state.move_obstacle(name, read_given_pose(pose, "pose")?)
+        self.state
+            .move_obstacle(name, read_given_pose(pose, "pose")?)
     }
 
     /// Removes an obstacle.
@@ -170,7 +171,7 @@ impl PyCell {
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<bool> {
         let answer = self.ask(py, Question::AnyContact, path, settings)?;
-        check_resolved(py, &answer)?;
+        check_resolved(&answer)?;
         Ok(answer.row.status == Status::Free)
     }
 
@@ -187,7 +188,7 @@ impl PyCell {
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let answer = self.ask(py, Question::FirstContact, path, settings)?;
-        check_resolved(py, &answer)?;
+        check_resolved(&answer)?;
         contact_object(py, &answer)
     }
 
@@ -334,15 +335,13 @@ impl PyCell {
         answer_paths(py, &self.state.solvers, given, paths)
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> (Bound<'py, PyType>, (Py<PyRobot>,), PickledContents) {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<PickledCell<'py>> {
         let (py, cell) = (slf.py(), slf.get());
-        let contents = cell.state.pickled(py);
-        (slf.get_type(), (cell.robot.clone_ref(py),), contents)
+        let contents = cell.state.pickled(py)?;
+        Ok((slf.get_type(), (cell.robot.clone_ref(py),), contents))
     }
 
-    fn __setstate__(&self, state: UnpickledContents<'_>) -> PyResult<()> {
+    fn __setstate__(&self, state: CellContents) -> PyResult<()> {
         self.state.restore(state)
     }
 
@@ -358,6 +357,9 @@ impl PyCell {
         )
     }
 }
+
+/// The class, the robot and the contents of a cell, as `__reduce__` returns them.
+type PickledCell<'py> = (Bound<'py, PyType>, (Py<PyRobot>,), Bound<'py, PyDict>);
 
 impl PyCell {
     fn ask(

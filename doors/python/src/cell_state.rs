@@ -1,13 +1,12 @@
 //! The state of a Python cell: the cell with its solvers, and in parallel its contents as Python passed them.
 
 use crate::body::{PyBody, extract_body};
-use crate::cell_contents::{
-    AttachedBody, CellContents, Contact, PickledContents, UnpickledContents,
-};
+use crate::cell_contents::{AttachedBody, CellContents, Contact};
 use crate::cell_solver::CellWithCachedSolvers;
 use crate::errors::input_error;
-use crate::motion::{GivenPose, read_given_pose};
+use crate::motion::GivenPose;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use rigid_ccd_robot::{Cell, RobotError};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -95,31 +94,28 @@ impl CellState {
     }
 
     /// Returns the contents, for pickle.
-    pub(crate) fn pickled(&self, py: Python<'_>) -> PickledContents {
-        self.contents().pickled(py)
+    pub(crate) fn pickled<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.contents().into_pyobject(py)
     }
 
     /// Restores the contents that pickle stored.
-    pub(crate) fn restore(&self, contents: UnpickledContents<'_>) -> PyResult<()> {
-        let (obstacles, attached, paddings, clearances, contacts) = contents;
-        for (name, body, pose) in &obstacles {
-            let pose = read_given_pose(pose, "pose")?;
+    pub(crate) fn restore(&self, contents: CellContents) -> PyResult<()> {
+        for (name, body, pose) in contents.obstacles {
             match body {
-                Some(body) => self.add(name, read_body(body)?, pose)?,
-                None => self.add_plane(name, pose)?,
+                Some(body) => self.add(&name, body, pose)?,
+                None => self.add_plane(&name, pose)?,
             }
         }
-        for (name, body, link, pose, may_touch) in attached {
-            let pose = read_given_pose(&pose, "pose")?;
-            self.attach((name, read_body(&body)?, link, pose, may_touch))?;
+        for attached in contents.attached {
+            self.attach(attached)?;
         }
-        for (link, distance) in &paddings {
+        for (link, distance) in &contents.paddings {
             self.set_padding(link, *distance)?;
         }
-        for (a, b, distance) in &clearances {
+        for (a, b, distance) in &contents.clearances {
             self.set_clearance(a, b, *distance)?;
         }
-        for (a, b, is_allowed) in &contacts {
+        for (a, b, is_allowed) in &contents.contacts {
             let contact = if *is_allowed {
                 Contact::Allowed
             } else {

@@ -120,7 +120,8 @@ fn check_values(given: &Bound<'_, PyAny>, curve: &JointCurve, robot: &Robot) -> 
     if !given.is_callable() {
         return Ok(());
     }
-    let inside = |span: &[f64]| [0.375, 0.75].map(|fraction| span[0] + fraction * (span[1] - span[0]));
+    let inside =
+        |span: &[f64]| [0.375, 0.75].map(|fraction| span[0] + fraction * (span[1] - span[0]));
     let times: Vec<f64> = curve.times().windows(2).flat_map(inside).collect();
     let array = PyArray1::from_slice(given.py(), &times);
     let values = read_configurations(&given.call1((array,))?, robot, "path(times)")?.values;

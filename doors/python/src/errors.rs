@@ -2,58 +2,18 @@
 
 use pyo3::exceptions::{
     PyException, PyKeyboardInterrupt, PyOSError, PyRuntimeError, PyTypeError, PyUserWarning,
-    PyValueError,
 };
 use pyo3::prelude::*;
-use rigid_ccd::{Remark, answer};
+use rigid_ccd::Remark;
+use rigid_ccd::answer::{self, Limit};
 use std::any::Any;
 use std::ffi::CString;
 use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-pyo3::create_exception!(
-    rigid_ccd,
-    InputError,
-    PyValueError,
-    "A number is out of range, or a mesh, a motion or a table is invalid. The message names the element."
-);
-pyo3::create_exception!(
-    rigid_ccd,
-    UnresolvedError,
-    PyRuntimeError,
-    "A limit was reached before the answer was known. For questions about contacts, nothing touches before the attribute `safe_until`. For distances, `lower` and `upper` are proven bounds. For proofs, `results` has the proofs until the limit. Other attributes are None."
-);
-pyo3::create_exception!(
-    rigid_ccd,
-    InterruptError,
-    PyKeyboardInterrupt,
-    "Ctrl-C ended a call. The attribute `results` has the answers so far, such as the first rows of a table. For a single question, `safe_until`, or `lower` and `upper`, are as for `UnresolvedError`. Other attributes are None."
-);
-
-/// Adds the exceptions to the module, and gives their attributes the default value None.
-pub(crate) fn add_exceptions(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    let py = module.py();
-    let classes = [
-        ("InputError", py.get_type::<InputError>(), &["results"][..]),
-        (
-            "UnresolvedError",
-            py.get_type::<UnresolvedError>(),
-            &["results", "safe_until", "lower", "upper"],
-        ),
-        (
-            "InterruptError",
-            py.get_type::<InterruptError>(),
-            &["results", "safe_until", "lower", "upper"],
-        ),
-    ];
-    for (name, class, attributes) in classes {
-        for attribute in attributes {
-            class.setattr(attribute, py.None())?;
-        }
-        module.add(name, class)?;
-    }
-    Ok(())
-}
+pyo3::import_exception!(rigid_ccd._errors, InputError);
+pyo3::import_exception!(rigid_ccd._errors, UnresolvedError);
+pyo3::import_exception!(rigid_ccd._errors, InterruptError);
 
 /// Runs code of libraries that panic on some tables or arrays, and converts a panic to an `InputError`.
 ///
@@ -136,16 +96,25 @@ pub(crate) fn file_error(error: &std::io::Error, path: &std::path::Path) -> PyEr
 /// Makes an `UnresolvedError` for a question about contacts, with the time `safe_until` before which no contact happens.
 pub(crate) fn unresolved_error(py: Python<'_>, known: &answer::Unresolved) -> PyErr {
     let (advice, safe_until) = (known.limit.advice(), known.safe_until);
-    let error = UnresolvedError::new_err(format!("{advice}; no contact happens before {safe_until}"));
+    let error =
+        UnresolvedError::new_err(format!("{advice}; no contact happens before {safe_until}"));
     with_attribute(py, error, "safe_until", safe_until)
+}
+
+/// Makes an `UnresolvedError` for a question about contacts on a path, with the time `safe_until` until which the path is
+/// free.
+pub(crate) fn path_limit_error(limit: Limit, safe_until: f64) -> PyErr {
+    let text = format!("a limit was reached ({limit}); free until {safe_until}");
+    let error = UnresolvedError::new_err(text);
+    Python::attach(|py| with_attribute(py, error, "safe_until", safe_until))
 }
 
 /// Makes an `UnresolvedError` for a question about a distance, with the bounds `lower` and `upper`.
 pub(crate) fn unresolved_distance_error(py: Python<'_>, known: &answer::Unresolved) -> PyErr {
     let (advice, lower, upper) = (known.limit.advice(), known.lower, known.upper);
-    let error = UnresolvedError::new_err(format!("{advice}; the distance is from {lower} to {upper}"));
-    let error = with_attribute(py, error, "lower", lower);
-    with_attribute(py, error, "upper", upper)
+    let error =
+        UnresolvedError::new_err(format!("{advice}; the distance is from {lower} to {upper}"));
+    with_bounds(py, error, [lower, upper])
 }
 
 /// Makes the exception for work that was ended by Ctrl-C, or by an exception of a signal handler or a callback. It has
@@ -176,7 +145,11 @@ pub(crate) fn time_interruption(py: Python<'_>, cause: PyErr, safe_until: Option
 /// Makes the exception for an interrupted question about a distance.
 pub(crate) fn bounds_interruption(py: Python<'_>, cause: PyErr, [lower, upper]: [f64; 2]) -> PyErr {
     let text = format!("interrupted; the distance is from {lower} to {upper}");
-    let error = with_attribute(py, interruption(py, cause, text), "lower", lower);
+    with_bounds(py, interruption(py, cause, text), [lower, upper])
+}
+
+fn with_bounds(py: Python<'_>, error: PyErr, [lower, upper]: [f64; 2]) -> PyErr {
+    let error = with_attribute(py, error, "lower", lower);
     with_attribute(py, error, "upper", upper)
 }
 

@@ -5,7 +5,7 @@ use crate::errors::{input_error, warn};
 use crate::numbers::read_number;
 use crate::pickle::{ConstructorCall, Reduced};
 use pyo3::prelude::*;
-use pyo3::types::{PyTuple, PyType};
+use pyo3::types::PyType;
 use rigid_ccd::glam::{DMat3, DQuat, DVec3};
 use rigid_ccd::{Motion, Pose, Remark};
 
@@ -50,10 +50,13 @@ impl PyMotion {
             Some(values) => finite_numbers(values, what),
             None => Ok([0.0; 3]),
         };
-        let turned = rotation.map_or(Ok(DQuat::IDENTITY), read_rotation)?;
-        let start = GivenPose(given(position, "position")?, turned);
+        let rotation = rotation.map_or(Ok(DQuat::IDENTITY.to_array()), read_rotation)?;
+        let start = GivenPose(given(position, "position")?, rotation);
         let velocity = given(velocity, "velocity")?;
-        let (angular_velocity, center) = (given(angular_velocity, "angular_velocity")?, given(center, "center")?);
+        let (angular_velocity, center) = (
+            given(angular_velocity, "angular_velocity")?,
+            given(center, "center")?,
+        );
         PyMotion::from_velocities(py, start, velocity, angular_velocity, center)
     }
 
@@ -84,11 +87,11 @@ impl PyMotion {
         );
         let center = center.map_or(Ok([0.0; 3]), |center| finite_numbers(center, "center"))?;
         let motion = Motion::between(start.pose("start")?, end.pose("end")?, center, duration);
-        let parts = (start, end, duration, center);
+        let arguments = (start, end, duration, center);
         Ok(PyMotion {
             motion: motion.map_err(input_error)?,
             end: Some(duration),
-            constructor_call: ConstructorCall::new(class.py(), Some("between"), parts)?,
+            constructor_call: ConstructorCall::new(class.py(), Some("between"), arguments)?,
         })
     }
 
@@ -126,23 +129,23 @@ impl PyMotion {
         center: [f64; 3],
     ) -> PyResult<Self> {
         let motion = Motion::about(start.pose("pose")?, velocity, angular_velocity, center);
-        let GivenPose(place, turned) = start;
-        let parts = (place, turned.to_array(), velocity, angular_velocity, center);
+        let GivenPose(position, rotation) = start;
+        let arguments = (position, rotation, velocity, angular_velocity, center);
         Ok(PyMotion {
             motion: motion.map_err(input_error)?,
             end: None,
-            constructor_call: ConstructorCall::new(py, None, parts)?,
+            constructor_call: ConstructorCall::new(py, None, arguments)?,
         })
     }
 }
 
-/// A position and an orientation as the caller passed them. They are kept, because normalisation may change even a
-/// normalised quaternion.
-#[derive(Clone, Copy)]
-pub(crate) struct GivenPose([f64; 3], DQuat);
+/// A position and a quaternion as the caller passed them, for pickle: normalisation may change even a normalised
+/// quaternion. In Python it is a tuple of both.
+#[derive(Clone, Copy, IntoPyObject, IntoPyObjectRef)]
+pub(crate) struct GivenPose([f64; 3], [f64; 4]);
 
 impl GivenPose {
-    pub(crate) const IDENTITY: GivenPose = GivenPose([0.0; 3], DQuat::IDENTITY);
+    pub(crate) const IDENTITY: GivenPose = GivenPose([0.0; 3], [0.0, 0.0, 0.0, 1.0]);
 
     /// Returns the normalised pose. Errors name it as `what`.
     pub(crate) fn pose(&self, what: &str) -> PyResult<Pose> {
@@ -150,34 +153,24 @@ impl GivenPose {
     }
 }
 
-/// Converts a pose to a tuple of a position and a quaternion in Python.
-impl<'py> IntoPyObject<'py> for GivenPose {
-    type Target = PyTuple;
-    type Output = Bound<'py, PyTuple>;
+impl<'py> FromPyObject<'_, 'py> for GivenPose {
     type Error = PyErr;
 
-    fn into_pyobject(self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        (self.0, self.1.to_array()).into_pyobject(py)
+    fn extract(pose: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        read_given_pose(&pose, "pose")
     }
 }
 
 /// Converts a pose to a matrix of shape (4, 4).
 pub(crate) fn pose_matrix<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, numpy::PyArray2<f64>> {
-    let (turned, place) = (DMat3::from_quat(pose.rotation()), pose.translation());
-    let row = |k: usize| {
-        vec![
-            turned.x_axis[k],
-            turned.y_axis[k],
-            turned.z_axis[k],
-            place[k],
-        ]
-    };
+    let (rotation, position) = (DMat3::from_quat(pose.rotation()), pose.translation());
+    let row = |k: usize| [rotation.row(k).to_array().as_slice(), &[position[k]]].concat();
     let matrix = [row(0), row(1), row(2), vec![0.0, 0.0, 0.0, 1.0]];
     numpy::PyArray2::from_vec2(py, &matrix).unwrap_or_else(|_| unreachable!("rows of four numbers"))
 }
 
 /// Reads a rotation from a quaternion, a matrix or a SciPy rotation.
-fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
+fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<[f64; 4]> {
     if value.hasattr("as_matrix")? {
         return rotation_from_matrix(&value.call_method0("as_matrix")?, "rotation");
     }
@@ -187,7 +180,7 @@ fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
             let is_zero = quaternion == [0.0; 4];
             let remark = Remark::remark_on_quaternion(quaternion).filter(|_| !is_zero);
             warn(value.py(), remark, 1)?;
-            Ok(DQuat::from_array(quaternion))
+            Ok(quaternion)
         }
         [3, 3] => rotation_from_matrix(value, "rotation"),
         _ => Err(input_error(
@@ -196,11 +189,11 @@ fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
     }
 }
 
-fn rotation_from_matrix(value: &Bound<'_, PyAny>, what: &str) -> PyResult<DQuat> {
+fn rotation_from_matrix(value: &Bound<'_, PyAny>, what: &str) -> PyResult<[f64; 4]> {
     quaternion_from_rows(finite_numbers(value, what)?, what)
 }
 
-fn quaternion_from_rows(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
+fn quaternion_from_rows(rows: [f64; 9], what: &str) -> PyResult<[f64; 4]> {
     let matrix = DMat3::from_cols_array(&rows).transpose();
     let off = (matrix * matrix.transpose() - DMat3::IDENTITY).to_cols_array();
     let error = off.iter().map(|entry| entry.abs());
@@ -208,7 +201,7 @@ fn quaternion_from_rows(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
     let is_rotation =
         error.clone().all(|error| error <= ORTHONORMALITY_TOLERANCE) && matrix.determinant() > 0.0;
     if is_rotation {
-        Ok(DQuat::from_mat3(&matrix))
+        Ok(DQuat::from_mat3(&matrix).to_array())
     } else {
         Err(input_error(format!(
             "{what}: the matrix is no rotation: its product with its transpose is off by {:.1e}, and its determinant \
@@ -226,10 +219,10 @@ pub(crate) fn read_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<Pose> 
 
 /// Reads a pose without normalising it.
 pub(crate) fn read_given_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<GivenPose> {
-    if let Ok((place, turned)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
+    if let Ok((position, rotation)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
         return Ok(GivenPose(
-            finite_numbers(&place, what)?,
-            read_rotation(&turned)?,
+            finite_numbers(&position, what)?,
+            read_rotation(&rotation)?,
         ));
     }
     if shape(value, what)?[..] != [4, 4] {

@@ -123,7 +123,9 @@ impl<'c> Pair<'c> {
     pub(crate) fn remarks(&self, duration: f64) -> impl Iterator<Item = Remark> {
         let courses = [&self.a.1, &self.b.1].into_iter();
         courses.filter_map(move |course| match course {
-            GivenMovement::Motion(motion, _) => Remark::remark_on_spin(motion.angular_velocity(), duration),
+            GivenMovement::Motion(motion, _) => {
+                Remark::remark_on_spin(motion.angular_velocity(), duration)
+            }
             GivenMovement::Link(..) | GivenMovement::Path(_) => None,
         })
     }

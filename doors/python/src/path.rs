@@ -66,7 +66,9 @@ impl PyPath {
         let timed = timed.map(|(k, (&time, pose))| Ok((time, pose.pose(&format!("pose {k}"))?)));
         let poses = PosePath::new(timed.collect::<PyResult<_>>()?).map_err(input_error)?;
         let mut poses = poses.about(center).map_err(input_error)?;
-        let angular_velocities = angular_velocities.map(|angular_velocities| rows::<3>(angular_velocities, "angular_velocities")).transpose()?;
+        let angular_velocities = angular_velocities
+            .map(|angular_velocities| rows::<3>(angular_velocities, "angular_velocities"))
+            .transpose()?;
         if let Some(angular_velocities) = &angular_velocities {
             poses = poses
                 .with_angular_velocities(angular_velocities.clone())
@@ -74,7 +76,11 @@ impl PyPath {
         }
         Ok(PyPath {
             poses,
-            constructor_call: ConstructorCall::new(py, None, (times, given, center, angular_velocities))?,
+            constructor_call: ConstructorCall::new(
+                py,
+                None,
+                (times, given, center, angular_velocities),
+            )?,
         })
     }
 

@@ -49,11 +49,11 @@ pub(crate) fn ask_path(
     let mut found = py.detach(|| ask(first));
     if ended_by_deadline(&found) && limit > first_limit {
         let work = |stop: &Arc<_>| {
-            ask(Settings {
+            let settings = Settings {
                 deadline: settings.deadline.map(|_| limit - first_limit),
-                stop: Some(Arc::clone(stop)),
                 ..settings
-            })
+            };
+            ask(settings.stopped_by(stop))
         };
         let (again, seen) = run_interruptibly(py, work, |_| Ok(()))?;
         seen.map_err(|cause| interruption(py, cause, question, &again))?;
@@ -91,11 +91,7 @@ pub(crate) fn path_ranges<'py>(
     let path = GivenPath::read(path, cell.robot())?;
     warn_of_question(py, &cell, &Asked::Path(&path), settings.tolerance)?;
     let work = |stop: &Arc<_>| {
-        let settings = Settings {
-            stop: Some(Arc::clone(stop)),
-            ..settings
-        };
-        solvers.ask(&settings, |solver| match &path {
+        solvers.ask(&settings.stopped_by(stop), |solver| match &path {
             GivenPath::Configurations(array) => {
                 solver.clearance_ranges(&array.configurations(), how)
             }

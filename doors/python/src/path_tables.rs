@@ -48,10 +48,7 @@ pub(crate) fn answer_paths(
         total: Some(paths.count()),
     };
     let work = |stop: &Arc<AtomicBool>, done: &AtomicUsize| {
-        let settings = Settings {
-            stop: Some(Arc::clone(stop)),
-            ..settings
-        };
+        let settings = settings.stopped_by(stop);
         let task = Task {
             question: asked,
             settings: &settings,
@@ -91,20 +88,17 @@ impl Task<'_> {
                     let answer = |path: &[&[f64]]| {
                         self.unless_stopped(|| self.question.answer(solver, path).row)
                     };
-                    Group::of(paths.map_group(chunk, answer))
+                    paths.map_group(chunk, answer)
                 })
             }
             GivenPaths::Curves(curves) => {
                 solvers.answer_tasks(self.settings, threads, curves, |solver, curve| {
                     let answer = || self.question.answer(solver, curve).row;
-                    Group::of(vec![self.unless_stopped(answer)])
+                    vec![self.unless_stopped(answer)]
                 })
             }
         };
-        let stopped = groups.iter().position(|group| !group.is_whole);
-        let whole = stopped.map_or(groups.len(), |stopped| stopped + 1);
-        let groups = groups.into_iter().take(whole);
-        groups.flat_map(|group| group.rows).collect()
+        groups.into_iter().flatten().map_while(|row| row).collect()
     }
 
     /// Returns a row, or `None` if the flag is set by the end: the question may have been stopped.
@@ -113,20 +107,5 @@ impl Task<'_> {
         let row = (!is_stopped()).then(answer).filter(|_| !is_stopped())?;
         self.done.fetch_add(1, Ordering::Relaxed);
         Some(row)
-    }
-}
-
-/// The rows of consecutive paths, up to the first path without an answer.
-struct Group {
-    rows: Vec<ResultRow>,
-    is_whole: bool,
-}
-
-impl Group {
-    fn of(rows: Vec<Option<ResultRow>>) -> Self {
-        let count = rows.len();
-        let rows: Vec<ResultRow> = rows.into_iter().map_while(|row| row).collect();
-        let is_whole = rows.len() == count;
-        Group { rows, is_whole }
     }
 }

@@ -3,7 +3,7 @@
 use crate::body::extract_body;
 use crate::cell_remarks::{Asked, warn_of_question};
 use crate::errors::{
-    UnresolvedError, input_error, interruption_error, time_interruption, unresolved_error,
+    input_error, interruption_error, path_limit_error, time_interruption, unresolved_error,
     with_attribute, wrong_type_error,
 };
 use crate::interruptible::{run_interruptibly, run_or_leave};
@@ -13,18 +13,15 @@ use crate::path_array::GivenPath;
 use crate::progress::{GivenProgress, run_with_progress};
 use crate::queries::ask;
 use crate::settings::{REPORTING_START, names, read};
-use ccd_prove::{
-    Body, CellNotProvable, NoMesh, NotProven, PathNotProven, Proof, ProvenCell, ProvenPair,
-    Statement,
-};
+use ccd_prove::{Body, CellNotProvable, NoMesh, Proof, ProvenCell, ProvenPair, Statement};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict, PyType};
 use rigid_ccd::Question;
 use rigid_ccd::{Motion, Outcome, Settings};
-use rigid_ccd_robot::{Cell, PathAnswer, PathError, PathOutcome};
+use rigid_ccd_robot::{Cell, PathAnswer, PathOutcome};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Makes Python `Proof`s that share the same meshes.
 fn proof_objects<'a, 'py>(
@@ -84,10 +81,7 @@ pub(crate) fn prove<'py>(
     )?;
     let [a, b] = [extract_body(a, "a")?, extract_body(b, "b")?];
     let work = |stop: &Arc<_>| {
-        let settings = Settings {
-            stop: Some(Arc::clone(stop)),
-            ..settings.clone()
-        };
+        let settings = settings.stopped_by(stop);
         let prove = |pair: ProvenPair| {
             let proof = pair.prove(motions, duration, &settings, &answer);
             (pair, proof)
@@ -145,124 +139,83 @@ pub(crate) fn prove_path<'py>(
         progress,
         total: Some(path.len() - 1),
     };
-    let work = |stop: &Arc<_>, done: &AtomicUsize| {
-        let settings = Settings {
-            stop: Some(Arc::clone(stop)),
-            ..settings.clone()
-        };
-        PathProofs::find(cell, &path, &settings, done)
-    };
+    let work =
+        |stop: &Arc<_>, done: &AtomicUsize| PathProofs::find(cell, &path, (settings, stop), done);
     let (found, seen) = run_with_progress(py, progress, work)?;
     let PathProofs {
         meshes,
         proofs,
-        fault,
+        error,
     } = found.map_err(input_error)?;
     let proofs = proof_objects(py, &proofs, &meshes)?;
-    match (seen, fault) {
+    match (seen, error) {
         (Err(cause), _) => Err(interruption_error(py, cause, proofs)),
-        (Ok(()), Some(fault)) => Err(with_attribute(py, fault.error(py), "results", proofs)),
+        (Ok(()), Some(error)) => Err(with_attribute(py, error, "results", proofs)),
         (Ok(()), None) => Ok(proofs),
     }
 }
 
 /// The proofs of the segments of a path, up to the first missing one.
+#[derive(Default)]
 struct PathProofs {
     meshes: Vec<Body>,
     proofs: Vec<Proof>,
-    fault: Option<Fault>,
+    /// The exception for the missing proof, if one is missing.
+    error: Option<PyErr>,
 }
 
-/// The reason why a proof is missing.
-enum Fault {
-    Path(PathError),
-    Proof(PathNotProven),
-    /// Two bodies touch at a time, but no proof can show it.
-    Contact([String; 2], f64),
-    /// A limit was reached. The path is free until a time.
-    Limit(String, f64),
-}
-
-impl Fault {
-    /// Returns the reason why proofs do not cover an answer to its end, or `None` if they do.
-    fn of_answer(answer: &PathAnswer<'_>, proofs: &[Proof]) -> Option<Self> {
-        match &answer.outcome {
-            PathOutcome::Free => None,
-            PathOutcome::Contact(contact) => {
-                let last = proofs.get(contact.at.segment);
-                let last = last.and_then(|proof| Statement::read(&proof.bytes));
-                let is_shown = last.is_some_and(|statement| statement.witness.is_some());
-                let names = contact.items.map(|item| item.name().to_owned());
-                (!is_shown).then(|| Fault::Contact(names, contact.at.time()))
+/// Returns the exception if proofs do not cover an answer to its end.
+fn missing_proof_error(answer: &PathAnswer<'_>, proofs: &[Proof]) -> Option<PyErr> {
+    match &answer.outcome {
+        PathOutcome::Contact(contact) => {
+            let last = proofs.get(contact.at.segment);
+            let last = last.and_then(|proof| Statement::read(&proof.bytes));
+            if last.is_some_and(|statement| statement.witness.is_some()) {
+                return None;
             }
-            outcome => {
-                let limit = outcome
-                    .limit()
-                    .map_or_else(String::new, |limit| limit.to_string());
-                Some(Fault::Limit(limit, answer.free_until.time()))
-            }
+            let [a, b] = contact.items.map(|item| item.name());
+            Some(input_error(format!(
+                "path: {a} and {b} touch at {}, and no proof can show it; `results` has the proofs of the segments before",
+                contact.at.time()
+            )))
         }
-    }
-
-    fn error(self, py: Python<'_>) -> PyErr {
-        match self {
-            Fault::Path(error) => input_error(error),
-            Fault::Proof(error) => input_error(error),
-            Fault::Contact([a, b], time) => input_error(format!(
-                "path: {a} and {b} touch at {time}, and no proof can show it; `results` has the proofs of the segments before"
-            )),
-            Fault::Limit(limit, time) => {
-                let text = format!("a limit was reached ({limit}); free until {time}");
-                with_attribute(py, UnresolvedError::new_err(text), "safe_until", time)
-            }
-        }
+        outcome => outcome
+            .limit()
+            .map(|limit| path_limit_error(limit, answer.free_until.time())),
     }
 }
 
 impl PathProofs {
-    /// No proofs, because another thread stopped the work before the first one.
-    const STOPPED: PathProofs = PathProofs {
-        meshes: Vec::new(),
-        proofs: Vec::new(),
-        fault: Some(Fault::Proof(PathNotProven::Segment {
-            segment: 0,
-            reason: NotProven::Stopped { at: 0.0 },
-        })),
-    };
-
-    /// Searches a path, and proves the answer. Counts proven segments in `done`.
+    /// Searches a path, and proves the answer. Counts proven segments in `done`. If another thread sets the flag `stop`
+    /// before the first proof, returns no proofs.
     fn find(
         cell: &Cell,
         path: &[&[f64]],
-        settings: &Settings,
+        (settings, stop): (Settings, &Arc<AtomicBool>),
         done: &AtomicUsize,
     ) -> Result<Self, CellNotProvable> {
-        let proven = match &settings.stop {
-            Some(stop) => ProvenCell::unless_stopped(cell, stop),
-            None => Some(ProvenCell::new(cell)),
+        let Some(proven) = ProvenCell::unless_stopped(cell, stop).transpose()? else {
+            return Ok(PathProofs::default());
         };
-        let Some(proven) = proven.transpose()? else {
-            return Ok(PathProofs::STOPPED);
-        };
+        let settings = settings.stopped_by(stop);
         let mut found = PathProofs {
             meshes: proven.meshes().cloned().collect(),
-            proofs: Vec::new(),
-            fault: None,
+            ..PathProofs::default()
         };
         let mut solver = cell.solver().with_settings(settings.clone());
         match solver.first_contact(path) {
             Ok(answer) => {
-                for proof in proven.path_proofs(path, &answer, settings) {
+                for proof in proven.path_proofs(path, &answer, &settings) {
                     match proof {
                         Ok(proof) => found.proofs.push(proof),
-                        Err(error) => found.fault = Some(Fault::Proof(error)),
+                        Err(error) => found.error = Some(input_error(error)),
                     }
                     done.fetch_add(1, Ordering::Relaxed);
                 }
-                let missing = || Fault::of_answer(&answer, &found.proofs);
-                found.fault = found.fault.or_else(missing);
+                let missing = || missing_proof_error(&answer, &found.proofs);
+                found.error = found.error.or_else(missing);
             }
-            Err(error) => found.fault = Some(Fault::Path(error)),
+            Err(error) => found.error = Some(input_error(error)),
         }
         Ok(found)
     }

@@ -92,10 +92,9 @@ impl PairQuestion<'_> {
         let work = |stop: &Arc<_>| {
             let settings = Settings {
                 deadline: left,
-                stop: Some(Arc::clone(stop)),
                 ..settings.clone()
             };
-            self.answer(&mut Solver::new(), &settings)
+            self.answer(&mut Solver::new(), &settings.stopped_by(stop))
         };
         let (found, seen) = run_interruptibly(py, work, |_| Ok(()))?;
         seen.map_err(|cause| self.interruption(py, cause, &found))?;

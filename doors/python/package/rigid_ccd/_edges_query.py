@@ -7,8 +7,9 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from ._errors import InputError
 from ._query import like
-from ._rigid_ccd import Cell, InputError, Table
+from ._rigid_ccd import Cell, Table
 
 PathQuestion: TypeAlias = Literal["is-free", "first-contact", "closest-approach"]
 

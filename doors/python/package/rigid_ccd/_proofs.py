@@ -6,8 +6,9 @@ from os import PathLike
 from pathlib import Path
 from typing import Literal
 
+from ._errors import InputError, InterruptError
 from ._progress import reporter
-from ._rigid_ccd import InputError, InterruptError, check_proof, proof_statement, read_proof
+from ._rigid_ccd import check_proof, proof_statement, read_proof
 from ._settings import Progress
 
 

@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from typing import Any, Literal, TypeAlias
 
-from ._rigid_ccd import Body, InputError, Table
+from ._errors import InputError
+from ._rigid_ccd import Body, Table
 from ._tables import Question, answer
 
 BodyOrFile: TypeAlias = Body | str | os.PathLike[str]

@@ -1,6 +1,6 @@
 //! Answers the rows of a table on all cores.
 
-use super::batch::{IdReading, id_field, unreadable_error};
+use super::batch::{id_field, unreadable_error};
 use super::input::Reader;
 use super::pieces::{ChunkSize, RowChunk, RowChunks, find_columns};
 use super::results;
@@ -50,14 +50,14 @@ pub(crate) fn answer(
     let columns = find_columns(&reader)?;
     let schema = results::schema(asked.question, id_field(&reader.schema()));
     let schema = Arc::new(schema.map_err(unreadable_error)?);
-    let settings = settings_with_stop(asked, stop);
+    let settings = asked.settings.clone().stopped_by(stop);
     let asked = TableQuestion {
         settings: &settings,
         ..asked
     };
     let mut solver = parallel_solver(asked.thread_count, Solver::new);
     let (size, source) = (ChunkSize::new(solver.threads()), (reader, &columns));
-    let mut pieces = RowChunks::new(source, asked.question, IdReading::WithoutIds, &size, stop)?;
+    let mut pieces = RowChunks::new(source, asked.question, &size, stop)?;
     let found = solver.map_iter(pieces.by_ref(), |solver, piece| {
         let start = Instant::now();
         let found = answer_rows(asked, &piece, &columns, solver, stop);
@@ -106,14 +106,6 @@ fn answer_rows(
         .zip(&answered)
         .map(|(row, answer)| result_row(asked, row, answer))
         .collect()
-}
-
-/// Returns the settings of the question with `stop` as the flag that stops queries.
-fn settings_with_stop(asked: TableQuestion<'_>, stop: &Arc<AtomicBool>) -> Settings {
-    Settings {
-        stop: Some(Arc::clone(stop)),
-        ..asked.settings.clone()
-    }
 }
 
 /// The answer of a row, or the defect of the row.

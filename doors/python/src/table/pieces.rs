@@ -37,7 +37,6 @@ pub(crate) struct RowChunks<'p> {
 enum RowSource {
     Motions {
         reader: Reader,
-        id_reading: IdReading,
         /// The number of rows read so far.
         read_row_count: usize,
         /// The remaining rows of the last batch.
@@ -103,7 +102,6 @@ impl<'p> RowChunks<'p> {
     pub(crate) fn new(
         (reader, columns): (Reader, &Columns),
         question: Question,
-        names: IdReading,
         size: &'p ChunkSize,
         stop: &'p AtomicBool,
     ) -> Result<Self, TableError> {
@@ -118,7 +116,6 @@ impl<'p> RowChunks<'p> {
         } else {
             RowSource::Motions {
                 reader,
-                id_reading: names,
                 read_row_count: 0,
                 rest: None,
             }
@@ -163,7 +160,6 @@ impl RowSource {
         match self {
             RowSource::Motions {
                 reader,
-                id_reading: names,
                 read_row_count: read,
                 rest,
             } => {
@@ -174,7 +170,7 @@ impl RowSource {
                         else {
                             return Ok(None);
                         };
-                        let batch = Batch::new(&batch, *read, *names)?;
+                        let batch = Batch::new(&batch, *read, IdReading::WithoutIds)?;
                         *read += batch.row_count;
                         let rows = 0..batch.row_count;
                         (Arc::new(batch), rows)
