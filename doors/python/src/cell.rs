@@ -44,12 +44,15 @@ pub(crate) struct PyCell {
 impl PyCell {
     #[new]
     fn new(robot: &Bound<'_, PyRobot>) -> PyResult<Self> {
-        let given = robot.get();
-        let cell = Cell::new((*given.robot).clone(), given.pairs.clone());
+        let py_robot = robot.get();
+        let cell = Cell::new((*py_robot.robot).clone(), py_robot.pairs.clone());
         // Warnings about files were shown when the files were read.
-        let told: Vec<_> = given.file_remarks().collect();
+        let shown: Vec<_> = py_robot.file_remarks().collect();
         let remarks = cell.remarks().into_iter();
-        warn_of(robot.py(), remarks.filter(|remark| !told.contains(&remark)))?;
+        warn_of(
+            robot.py(),
+            remarks.filter(|remark| !shown.contains(&remark)),
+        )?;
         Ok(PyCell {
             robot: robot.clone().unbind(),
             state: CellState::new(cell),
@@ -71,10 +74,11 @@ impl PyCell {
         body: &Bound<'_, PyAny>,
         pose: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
-        let (given, pose) = (read_body(body)?, given_pose_or_identity(pose)?);
-        let remark = self.remark_on_size(name, &given.get().body);
-        warn_of(body.py(), remark)?;
-        self.state.add(name, given, pose)
+        let py = body.py();
+        let (body, pose) = (read_body(body)?, given_pose_or_identity(pose)?);
+        let remark = self.remark_on_size(name, &body.get().body);
+        warn_of(py, remark)?;
+        self.state.add(name, body, pose)
     }
 
     /// Adds a half-space as an obstacle: all points below the plane z = 0 of the frame at a pose. It is represented by
@@ -106,10 +110,11 @@ impl PyCell {
         pose: Option<&Bound<'_, PyAny>>,
         #[pyo3(from_py_with = read_names)] may_touch: Vec<String>,
     ) -> PyResult<()> {
-        let (given, pose) = (read_body(body)?, given_pose_or_identity(pose)?);
-        let remark = self.remark_on_size(&name, &given.get().body);
-        warn_of(body.py(), remark)?;
-        self.state.attach((name, given, link, pose, may_touch))
+        let py = body.py();
+        let (body, pose) = (read_body(body)?, given_pose_or_identity(pose)?);
+        let remark = self.remark_on_size(&name, &body.get().body);
+        warn_of(py, remark)?;
+        self.state.attach((name, body, link, pose, may_touch))
     }
 
     /// Detaches a body from its link, and removes it.
@@ -265,11 +270,11 @@ impl PyCell {
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let settings = read(settings, &names(Question::FirstContact, REPORTING_START))?;
-        let how = RangeSettings {
+        let range_settings = RangeSettings {
             resolution,
             max_pose_error,
         };
-        path_ranges(py, &self.state.solvers, path, how, settings)
+        path_ranges(py, &self.state.solvers, path, range_settings, settings)
     }
 
     /// Answers a question about many edges, on all cores. The first two arguments are arrays of shape (N, joints): the
@@ -302,14 +307,14 @@ impl PyCell {
         progress: Option<&Bound<'_, PyAny>>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyTable> {
-        let given = GivenQuestion {
+        let question = GivenQuestion {
             question,
             threads,
             progress,
             settings,
         };
         let edges = || GivenPaths::read_edges([start, end], &self.robot.get().robot);
-        answer_paths(py, &self.state.solvers, given, edges)
+        answer_paths(py, &self.state.solvers, question, edges)
     }
 
     /// Answers a question about many paths, on all cores. `paths` is an array of shape (N, n, joints), or a list of
@@ -325,14 +330,14 @@ impl PyCell {
         progress: Option<&Bound<'_, PyAny>>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyTable> {
-        let given = GivenQuestion {
+        let question = GivenQuestion {
             question,
             threads,
             progress,
             settings,
         };
         let paths = || GivenPaths::read(paths, &self.robot.get().robot);
-        answer_paths(py, &self.state.solvers, given, paths)
+        answer_paths(py, &self.state.solvers, question, paths)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<PickledCell<'py>> {
@@ -378,14 +383,14 @@ impl PyCell {
     }
 }
 
-fn given_pose_or_identity(given: Option<&Bound<'_, PyAny>>) -> PyResult<GivenPose> {
-    given.map_or(Ok(GivenPose::IDENTITY), |pose| {
+fn given_pose_or_identity(pose: Option<&Bound<'_, PyAny>>) -> PyResult<GivenPose> {
+    pose.map_or(Ok(GivenPose::IDENTITY), |pose| {
         read_given_pose(pose, "pose")
     })
 }
 
 /// Reads a list of names. Refuses a single text.
-fn read_names(given: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
-    let names = given.extract::<Vec<String>>();
-    names.map_err(|_| wrong_type_error("may_touch", "a list of names", given))
+fn read_names(names: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
+    let texts = names.extract::<Vec<String>>();
+    texts.map_err(|_| wrong_type_error("may_touch", "a list of names", names))
 }

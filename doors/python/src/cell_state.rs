@@ -25,22 +25,22 @@ impl CellState {
     }
 
     pub(crate) fn add(&self, name: &str, body: Py<PyBody>, pose: GivenPose) -> PyResult<()> {
-        let (added, place) = (body.get().body.clone(), pose.pose("pose")?);
-        self.change(|cell| cell.add_obstacle(name, added, place))?;
+        let (added_body, placement) = (body.get().body.clone(), pose.pose("pose")?);
+        self.change(|cell| cell.add_obstacle(name, added_body, placement))?;
         self.contents().add(name, Some(body), pose);
         Ok(())
     }
 
     pub(crate) fn add_plane(&self, name: &str, pose: GivenPose) -> PyResult<()> {
-        let place = pose.pose("pose")?;
-        self.change(|cell| cell.add_plane(name, place))?;
+        let placement = pose.pose("pose")?;
+        self.change(|cell| cell.add_plane(name, placement))?;
         self.contents().add(name, None, pose);
         Ok(())
     }
 
     pub(crate) fn move_obstacle(&self, name: &str, pose: GivenPose) -> PyResult<()> {
-        let place = pose.pose("pose")?;
-        self.change(|cell| cell.move_obstacle(name, place))?;
+        let placement = pose.pose("pose")?;
+        self.change(|cell| cell.move_obstacle(name, placement))?;
         self.contents().move_obstacle(name, pose);
         Ok(())
     }
@@ -53,9 +53,9 @@ impl CellState {
 
     pub(crate) fn attach(&self, attached: AttachedBody) -> PyResult<()> {
         let (name, body, link, pose, may_touch) = &attached;
-        let (body, place) = (body.get().body.clone(), pose.pose("pose")?);
-        let others: Vec<&str> = may_touch.iter().map(String::as_str).collect();
-        self.change(|cell| cell.attach(name, body, (link.as_str(), place), &others))?;
+        let (body, placement) = (body.get().body.clone(), pose.pose("pose")?);
+        let may_touch: Vec<&str> = may_touch.iter().map(String::as_str).collect();
+        self.change(|cell| cell.attach(name, body, (link.as_str(), placement), &may_touch))?;
         self.contents().attach(attached);
         Ok(())
     }

@@ -19,13 +19,13 @@ pyo3::import_exception!(rigid_ccd._errors, InterruptError);
 ///
 /// Python could not catch a panic with `except Exception`.
 pub(crate) fn run_catching_panics<T>(
-    what: &str,
+    context: &str,
     work: impl FnOnce() -> PyResult<T>,
 ) -> PyResult<T> {
     let done = catch_unwind(AssertUnwindSafe(work));
     done.unwrap_or_else(|panic| {
         Err(input_error(format!(
-            "{what}: {}",
+            "{context}: {}",
             panic_message(panic.as_ref())
         )))
     })
@@ -67,11 +67,11 @@ pub(crate) fn input_error_or_interrupt(error: impl Display) -> PyErr {
 
 /// Converts an exception to an `InputError` with the exception as its cause. Returns exceptions that end the program,
 /// such as that of Ctrl-C, unchanged.
-pub(crate) fn input_error_from(py: Python<'_>, what: &str, cause: PyErr) -> PyErr {
+pub(crate) fn input_error_from(py: Python<'_>, argument_name: &str, cause: PyErr) -> PyErr {
     if !cause.is_instance_of::<PyException>(py) {
         return cause;
     }
-    let error = InputError::new_err(format!("{what}: {}", cause.value(py)));
+    let error = InputError::new_err(format!("{argument_name}: {}", cause.value(py)));
     error.set_cause(py, Some(cause));
     error
 }
@@ -179,12 +179,16 @@ pub(crate) fn warn(
 }
 
 /// Makes a `TypeError` that names the needed type and the given one.
-pub(crate) fn wrong_type_error(what: &str, needed: &str, found: &Bound<'_, PyAny>) -> PyErr {
-    let kind = found.get_type();
-    let name = kind
+pub(crate) fn wrong_type_error(
+    argument_name: &str,
+    needed: &str,
+    argument: &Bound<'_, PyAny>,
+) -> PyErr {
+    let class = argument.get_type();
+    let name = class
         .fully_qualified_name()
         .map_or_else(|_| "?".to_owned(), |name| name.to_string());
-    PyTypeError::new_err(format!("{what}: {needed} is needed, not {name}"))
+    PyTypeError::new_err(format!("{argument_name}: {needed} is needed, not {name}"))
 }
 
 /// Sets an attribute of a Python exception, and returns the exception.

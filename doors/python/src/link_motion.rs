@@ -76,9 +76,9 @@ impl PyLinkTrajectory {
         let chain = links.chain_between(from, to);
         let start = read_configurations(start, links, "start")?.values;
         let end = read_configurations(end, links, "end")?.values;
-        let positions = |what, configuration: &[f64]| {
+        let positions = |argument_name, configuration: &[f64]| {
             let positions = chain.positions(links, configuration);
-            positions.map_err(|error| input_error(format!("{what}: {error}")))
+            positions.map_err(|error| input_error(format!("{argument_name}: {error}")))
         };
         let ends = [positions("start", &start)?, positions("end", &end)?];
         let turning = chain.chain().joints().iter().enumerate();

@@ -46,16 +46,16 @@ impl PyMotion {
         angular_velocity: Option<&Bound<'_, PyAny>>,
         center: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let given = |values: Option<&Bound<'_, PyAny>>, what| match values {
-            Some(values) => finite_numbers(values, what),
+        let vector = |values: Option<&Bound<'_, PyAny>>, argument_name| match values {
+            Some(values) => finite_numbers(values, argument_name),
             None => Ok([0.0; 3]),
         };
         let rotation = rotation.map_or(Ok(DQuat::IDENTITY.to_array()), read_rotation)?;
-        let start = GivenPose(given(position, "position")?, rotation);
-        let velocity = given(velocity, "velocity")?;
+        let start = GivenPose(vector(position, "position")?, rotation);
+        let velocity = vector(velocity, "velocity")?;
         let (angular_velocity, center) = (
-            given(angular_velocity, "angular_velocity")?,
-            given(center, "center")?,
+            vector(angular_velocity, "angular_velocity")?,
+            vector(center, "center")?,
         );
         PyMotion::from_velocities(py, start, velocity, angular_velocity, center)
     }
@@ -147,9 +147,9 @@ pub(crate) struct GivenPose([f64; 3], [f64; 4]);
 impl GivenPose {
     pub(crate) const IDENTITY: GivenPose = GivenPose([0.0; 3], [0.0, 0.0, 0.0, 1.0]);
 
-    /// Returns the normalised pose. Errors name it as `what`.
-    pub(crate) fn pose(&self, what: &str) -> PyResult<Pose> {
-        Pose::new(self.0, self.1).map_err(|error| input_error(format!("{what}: {error}")))
+    /// Returns the normalised pose. Errors name it as `argument_name`.
+    pub(crate) fn pose(&self, argument_name: &str) -> PyResult<Pose> {
+        Pose::new(self.0, self.1).map_err(|error| input_error(format!("{argument_name}: {error}")))
     }
 }
 
@@ -189,14 +189,14 @@ fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<[f64; 4]> {
     }
 }
 
-fn rotation_from_matrix(value: &Bound<'_, PyAny>, what: &str) -> PyResult<[f64; 4]> {
-    quaternion_from_rows(finite_numbers(value, what)?, what)
+fn rotation_from_matrix(value: &Bound<'_, PyAny>, argument_name: &str) -> PyResult<[f64; 4]> {
+    quaternion_from_rows(finite_numbers(value, argument_name)?, argument_name)
 }
 
-fn quaternion_from_rows(rows: [f64; 9], what: &str) -> PyResult<[f64; 4]> {
+fn quaternion_from_rows(rows: [f64; 9], argument_name: &str) -> PyResult<[f64; 4]> {
     let matrix = DMat3::from_cols_array(&rows).transpose();
-    let off = (matrix * matrix.transpose() - DMat3::IDENTITY).to_cols_array();
-    let error = off.iter().map(|entry| entry.abs());
+    let deviation = (matrix * matrix.transpose() - DMat3::IDENTITY).to_cols_array();
+    let error = deviation.iter().map(|entry| entry.abs());
     // The comparison is written so that NaN is refused.
     let is_rotation =
         error.clone().all(|error| error <= ORTHONORMALITY_TOLERANCE) && matrix.determinant() > 0.0;
@@ -204,7 +204,7 @@ fn quaternion_from_rows(rows: [f64; 9], what: &str) -> PyResult<[f64; 4]> {
         Ok(DQuat::from_mat3(&matrix).to_array())
     } else {
         Err(input_error(format!(
-            "{what}: the matrix is no rotation: its product with its transpose is off by {:.1e}, and its determinant \
+            "{argument_name}: the matrix is no rotation: its product with its transpose is off by {:.1e}, and its determinant \
          is {:.1}",
             error.max_by(f64::total_cmp).unwrap_or_default(),
             matrix.determinant()
@@ -212,33 +212,36 @@ fn quaternion_from_rows(rows: [f64; 9], what: &str) -> PyResult<[f64; 4]> {
     }
 }
 
-/// Reads a pose from any of its accepted forms. Errors name it as `what`.
-pub(crate) fn read_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<Pose> {
-    read_given_pose(value, what)?.pose(what)
+/// Reads a pose from any of its accepted forms. Errors name it as `argument_name`.
+pub(crate) fn read_pose(value: &Bound<'_, PyAny>, argument_name: &str) -> PyResult<Pose> {
+    read_given_pose(value, argument_name)?.pose(argument_name)
 }
 
 /// Reads a pose without normalising it.
-pub(crate) fn read_given_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<GivenPose> {
+pub(crate) fn read_given_pose(
+    value: &Bound<'_, PyAny>,
+    argument_name: &str,
+) -> PyResult<GivenPose> {
     if let Ok((position, rotation)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
         return Ok(GivenPose(
-            finite_numbers(&position, what)?,
+            finite_numbers(&position, argument_name)?,
             read_rotation(&rotation)?,
         ));
     }
-    if shape(value, what)?[..] != [4, 4] {
+    if shape(value, argument_name)?[..] != [4, 4] {
         return Err(input_error(format!(
-            "{what}: a matrix of shape (4, 4), or a pair of a position and a rotation is needed"
+            "{argument_name}: a matrix of shape (4, 4), or a pair of a position and a rotation is needed"
         )));
     }
-    let m: [f64; 16] = finite_numbers(value, what)?;
+    let m: [f64; 16] = finite_numbers(value, argument_name)?;
     if m[12..] != [0.0, 0.0, 0.0, 1.0] {
         return Err(input_error(format!(
-            "{what}: the last row of the matrix is not 0, 0, 0, 1"
+            "{argument_name}: the last row of the matrix is not 0, 0, 0, 1"
         )));
     }
     let rows = [m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]];
     Ok(GivenPose(
         [m[3], m[7], m[11]],
-        quaternion_from_rows(rows, what)?,
+        quaternion_from_rows(rows, argument_name)?,
     ))
 }

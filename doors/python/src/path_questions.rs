@@ -84,7 +84,7 @@ pub(crate) fn path_ranges<'py>(
     py: Python<'py>,
     solvers: &CellWithCachedSolvers,
     path: &Bound<'py, PyAny>,
-    how: RangeSettings,
+    range_settings: RangeSettings,
     settings: Settings,
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let cell = solvers.cell();
@@ -93,9 +93,9 @@ pub(crate) fn path_ranges<'py>(
     let work = |stop: &Arc<_>| {
         solvers.ask(&settings.stopped_by(stop), |solver| match &path {
             GivenPath::Configurations(array) => {
-                solver.clearance_ranges(&array.configurations(), how)
+                solver.clearance_ranges(&array.configurations(), range_settings)
             }
-            GivenPath::Curve(curve) => solver.clearance_ranges(curve, how),
+            GivenPath::Curve(curve) => solver.clearance_ranges(curve, range_settings),
         })
     };
     let (ranges, seen) = run_interruptibly(py, work, |_| Ok(()))?;

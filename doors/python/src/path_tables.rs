@@ -7,7 +7,7 @@ use crate::path_answers::question_named;
 use crate::path_array::GivenPaths;
 use crate::progress::{GivenProgress, results_or_interruption, run_with_progress};
 use crate::settings::{names, read, read_thread_count};
-use crate::table::{PyTable, path_batch};
+use crate::table::{PyTable, path_result_batch};
 use ccd_tables::path_rows::PathQuestion;
 use ccd_tables::results::ResultRow;
 use pyo3::prelude::*;
@@ -28,11 +28,11 @@ pub(crate) struct GivenQuestion<'a, 'py> {
 pub(crate) fn answer_paths(
     py: Python<'_>,
     solvers: &CellWithCachedSolvers,
-    given: GivenQuestion<'_, '_>,
+    arguments: GivenQuestion<'_, '_>,
     read_paths: impl FnOnce() -> PyResult<GivenPaths>,
 ) -> PyResult<PyTable> {
-    let question = question_named(given.question)?;
-    let mut settings = read(given.settings, &names(question, &[]))?;
+    let question = question_named(arguments.question)?;
+    let mut settings = read(arguments.settings, &names(question, &[]))?;
     settings.check().map_err(input_error)?;
     let asked = PathQuestion {
         question,
@@ -40,11 +40,11 @@ pub(crate) fn answer_paths(
     };
     let cell = solvers.cell();
     cell.check_any_compared().map_err(input_error)?;
-    let threads = read_thread_count(given.threads)?;
+    let threads = read_thread_count(arguments.threads)?;
     let paths = read_paths()?;
     warn_of_question(py, &cell, &Asked::Paths(&paths), settings.tolerance)?;
     let progress = GivenProgress {
-        progress: given.progress,
+        progress: arguments.progress,
         total: Some(paths.count()),
     };
     let work = |stop: &Arc<AtomicBool>, done: &AtomicUsize| {
@@ -58,7 +58,7 @@ pub(crate) fn answer_paths(
         task.answer(solvers, threads, &paths)
     };
     let (rows, seen) = run_with_progress(py, progress, work)?;
-    let batch = py.detach(|| path_batch(question, &rows));
+    let batch = py.detach(|| path_result_batch(question, &rows));
     let batch = batch.map_err(input_error)?;
     results_or_interruption(py, PyTable { batch }, seen)
 }
@@ -73,7 +73,7 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// Returns the rows of all paths. If the flag `stop` is set meanwhile, returns the first rows only.
+    /// Answers all paths, and returns the row of each. If the flag `stop` is set meanwhile, returns the first rows only.
     fn answer(
         &self,
         solvers: &CellWithCachedSolvers,
@@ -101,7 +101,8 @@ impl Task<'_> {
         groups.into_iter().flatten().map_while(|row| row).collect()
     }
 
-    /// Returns a row, or `None` if the flag is set by the end: the question may have been stopped.
+    /// Calls `answer`, and returns its row. Returns `None` if the flag `stop` is set when it ends, because the question may have
+    /// been stopped.
     fn unless_stopped(&self, answer: impl FnOnce() -> ResultRow) -> Option<ResultRow> {
         let is_stopped = || self.stop.load(Ordering::Relaxed);
         let row = (!is_stopped()).then(answer).filter(|_| !is_stopped())?;

@@ -126,7 +126,7 @@ pub(crate) fn prove_path<'py>(
         GivenPath::Configurations(path) => path,
         GivenPath::Curve(_) => {
             return Err(input_error(
-                "path: a curve has no proofs, configurations do",
+                "path: only a path of configurations can be proven, not a curve",
             ));
         }
     };
@@ -222,10 +222,17 @@ impl PathProofs {
 }
 
 /// Reads a motion at constant velocities. Only these have proofs.
-fn constant_motion((_, motion): GivenBodyAndMotion<'_, '_>, what: &str) -> PyResult<Motion> {
-    match (GivenMovement::extract(motion, what)?, motion) {
+fn constant_motion(
+    (_, motion): GivenBodyAndMotion<'_, '_>,
+    argument_name: &str,
+) -> PyResult<Motion> {
+    match (GivenMovement::extract(motion, argument_name)?, motion) {
         (GivenMovement::Motion(motion, _), _) => Ok(motion),
-        (_, Some(given)) => Err(wrong_type_error(what, "a Motion for a proof", given)),
+        (_, Some(movement)) => Err(wrong_type_error(
+            argument_name,
+            "a Motion for a proof",
+            movement,
+        )),
         (_, None) => Ok(Motion::STILL),
     }
 }

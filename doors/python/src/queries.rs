@@ -281,8 +281,8 @@ pub(crate) fn distance<'py>(
     pose_b: Option<&Bound<'_, PyAny>>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let pose = |pose: Option<&Bound<'_, PyAny>>, what| match pose {
-        Some(pose) => read_pose(pose, what),
+    let pose = |pose: Option<&Bound<'_, PyAny>>, argument_name| match pose {
+        Some(pose) => read_pose(pose, argument_name),
         None => Ok(rigid_ccd::Pose::IDENTITY),
     };
     let (pose_a, pose_b) = (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?);

@@ -60,15 +60,15 @@ impl PyRobot {
         may_touch: Vec<(String, String)>,
     ) -> PyResult<Self> {
         // Collects one by one, because an object may report a wrong length.
-        let given = joints
+        let py_joints = joints
             .try_iter()?
             .map(|joint| Ok(joint?.cast_into::<PyJoint>()?.unbind()));
-        let given: Vec<Py<PyJoint>> = given.collect::<PyResult<_>>()?;
-        let joints: Vec<Joint> = given
+        let py_joints: Vec<Py<PyJoint>> = py_joints.collect::<PyResult<_>>()?;
+        let joints: Vec<Joint> = py_joints
             .iter()
             .map(|joint| joint.get().joint.clone())
             .collect();
-        let (links, read) = read_links(py, &joints, bodies.as_ref())?;
+        let (links, link_bodies) = read_links(py, &joints, bodies.as_ref())?;
         let robot = Robot::new(links, joints).map_err(input_error)?;
         let mut pairs = LinkPairs::from_robot(&robot);
         for (a, b) in &may_touch {
@@ -78,7 +78,7 @@ impl PyRobot {
         Ok(PyRobot {
             robot: Arc::new(robot),
             pairs,
-            constructor_call: ConstructorCall::new(py, None, (given, read, may_touch))?,
+            constructor_call: ConstructorCall::new(py, None, (py_joints, link_bodies, may_touch))?,
         })
     }
 
@@ -226,15 +226,15 @@ impl PyRobot {
     ) -> PyResult<Self> {
         let py = class.py();
         let items = robots.items()?;
-        let given = items.iter().map(|item| item.extract());
-        let given: Vec<(String, Py<PyRobot>)> = given.collect::<PyResult<_>>()?;
-        let names: Vec<String> = given.iter().map(|(name, _)| name.clone()).collect();
+        let named_robots = items.iter().map(|item| item.extract());
+        let named_robots: Vec<(String, Py<PyRobot>)> = named_robots.collect::<PyResult<_>>()?;
+        let names: Vec<String> = named_robots.iter().map(|(name, _)| name.clone()).collect();
         let robot_bases = RobotBase::read_all(&names, poses, bases, carriers)?;
         // For pickle, keeps the values that were read, because the caller may change the arguments.
-        let read = [(); 4].map(|()| PyDict::new(py));
+        let arguments = [(); 4].map(|()| PyDict::new(py));
         let mut placed = Vec::new();
-        for ((name, robot), base) in given.iter().zip(&robot_bases) {
-            let [robots, poses, bases, carriers] = &read;
+        for ((name, robot), base) in named_robots.iter().zip(&robot_bases) {
+            let [robots, poses, bases, carriers] = &arguments;
             robots.set_item(name, robot)?;
             poses.set_item(name, base.pose)?;
             bases.set_item(name, &base.motion_name)?;
@@ -252,7 +252,7 @@ impl PyRobot {
             });
         }
         let (robot, pairs) = Robot::combine(&placed).map_err(input_error)?;
-        let arguments: (_, _, _, _) = read.into();
+        let arguments: (_, _, _, _) = arguments.into();
         Ok(PyRobot {
             robot: Arc::new(robot),
             pairs,
@@ -305,9 +305,14 @@ impl PyRobot {
         prefix: &str,
         joint: &str,
     ) -> PyResult<Option<(String, bool)>> {
-        let found = joint_column(&names, &self.robot, (prefix, joint), AngleUnit::Radian);
-        let found = found.map_err(input_error)?;
-        Ok(found.map(|own| (names[own.column].clone(), own.unit == AngleUnit::Degree)))
+        let column = joint_column(&names, &self.robot, (prefix, joint), AngleUnit::Radian);
+        let column = column.map_err(input_error)?;
+        Ok(column.map(|column| {
+            (
+                names[column.column].clone(),
+                column.unit == AngleUnit::Degree,
+            )
+        }))
     }
 
     /// Returns the pose of a link in the frame of the base, as a matrix of shape (4, 4).
@@ -317,8 +322,11 @@ impl PyRobot {
         configuration: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let py = configuration.py();
-        let given = read_configurations(configuration, &self.robot, "configuration")?;
-        let pose = self.robot.pose(link, &given.values).map_err(input_error)?;
+        let configuration = read_configurations(configuration, &self.robot, "configuration")?;
+        let pose = self
+            .robot
+            .pose(link, &configuration.values)
+            .map_err(input_error)?;
         Ok(pose_matrix(py, &pose))
     }
 
@@ -388,14 +396,14 @@ impl PyRobot {
         srdf: Option<PathBuf>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<PyTable> {
-        let asked = LinkContactQuestion {
+        let question = LinkContactQuestion {
             robot: &self.robot,
             pairs: &self.pairs,
             max_boxes,
             srdf,
             progress,
         };
-        asked.answer(py)
+        question.answer(py)
     }
 
     fn __repr__(&self) -> String {
@@ -418,13 +426,13 @@ impl PyRobot {
         constructor_call: ConstructorCall,
     ) -> PyResult<Self> {
         let (robot, pairs) = read_robot(py, file, srdf)?;
-        let read = PyRobot {
+        let py_robot = PyRobot {
             robot: Arc::new(robot),
             pairs,
             constructor_call,
         };
-        warn_of(py, read.file_remarks().cloned())?;
-        Ok(read)
+        warn_of(py, py_robot.file_remarks().cloned())?;
+        Ok(py_robot)
     }
 
     /// Returns the remarks on the files that the robot is from.

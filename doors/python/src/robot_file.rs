@@ -70,26 +70,26 @@ pub(crate) fn check_text(text: &str) -> PyResult<()> {
 }
 
 /// Reads a folder or a list of folders.
-pub(crate) fn read_folders(given: &Bound<'_, PyAny>) -> PyResult<Option<Vec<PathBuf>>> {
-    if given.is_none() {
+pub(crate) fn read_folders(folders: &Bound<'_, PyAny>) -> PyResult<Option<Vec<PathBuf>>> {
+    if folders.is_none() {
         return Ok(None);
     }
-    if let Ok(folder) = given.extract() {
+    if let Ok(folder) = folders.extract() {
         return Ok(Some(vec![folder]));
     }
     let needed = "a folder, or a list of folders,";
-    let folders = given
+    let iterator = folders
         .try_iter()
-        .map_err(|_| wrong_type_error("packages", needed, given))?;
+        .map_err(|_| wrong_type_error("packages", needed, folders))?;
     let folder = |folder: PyResult<Bound<'_, PyAny>>| {
         let folder = folder?;
         folder
             .extract()
             .map_err(|_| wrong_type_error("packages", needed, &folder))
     };
-    folders.map(folder).collect::<PyResult<_>>().map(Some)
+    iterator.map(folder).collect::<PyResult<_>>().map(Some)
 }
 
-fn unknown_name_error(what: &str, given: &str, known: &str) -> PyErr {
-    input_error(format!("{what}: '{given}' is not {known}"))
+fn unknown_name_error(argument_name: &str, name: &str, known: &str) -> PyErr {
+    input_error(format!("{argument_name}: '{name}' is not {known}"))
 }

@@ -55,13 +55,13 @@ pub(crate) fn answer_table(
     let found = found.map_err(|error| table_error(&error))?;
     let TableAnswers {
         results,
-        fault,
+        error: row_error,
         remarks,
     } = found;
     let table = PyTable { batch: results };
-    match (seen, fault) {
+    match (seen, row_error) {
         (Err(cause), _) => Err(interruption_error(py, cause, table)),
-        (Ok(()), Some(fault)) => Err(match table_error(&fault) {
+        (Ok(()), Some(row_error)) => Err(match table_error(&row_error) {
             error if error.is_instance_of::<PyKeyboardInterrupt>(py) => {
                 interruption_error(py, error, table)
             }

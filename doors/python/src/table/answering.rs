@@ -32,7 +32,7 @@ pub(crate) struct TableQuestion<'a> {
 /// The results of a table's rows up to the first row without an answer, and the error that ended the table, if any.
 pub(crate) struct TableAnswers {
     pub(crate) results: RecordBatch,
-    pub(crate) fault: Option<TableError>,
+    pub(crate) error: Option<TableError>,
     /// The remarks on probable mistakes in the rows.
     pub(crate) remarks: Vec<Remark>,
 }
@@ -82,7 +82,7 @@ pub(crate) fn answer(
     Ok(TableAnswers {
         results: results::concatenate(&schema, &answered).map_err(unreadable_error)?,
         remarks: pieces.remarks(&columns),
-        fault: pieces.fault,
+        error: pieces.error,
     })
 }
 

@@ -154,16 +154,16 @@ fn batch_of_arrays(columns: &Bound<'_, PyMapping>) -> PyResult<RecordBatch> {
 }
 
 fn read_column(name: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
-    let what = format!("column {name}");
+    let argument_name = format!("column {name}");
     let numpy = values.py().import("numpy")?;
     if name == ID_COLUMN && !values.is_instance(&numpy.getattr("ndarray")?)? {
         return ids(values);
     }
-    let array = numpy_array(values, &what)?;
+    let array = numpy_array(values, &argument_name)?;
     let dimensions: usize = array.getattr("ndim")?.extract()?;
     if dimensions != 1 {
         return Err(input_error(format!(
-            "{what}: an array of one dimension is needed, not of {dimensions}"
+            "{argument_name}: an array of one dimension is needed, not of {dimensions}"
         )));
     }
     let dtype = array.getattr("dtype")?;
@@ -172,7 +172,7 @@ fn read_column(name: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
         (ID_COLUMN, _) => ids(&array.call_method0("tolist")?),
         (_, 'f') => contiguous_array(&array, PyString::new(values.py(), "float64").as_any()),
         _ => Err(input_error(format!(
-            "{what}: numbers are needed, not {dtype}"
+            "{argument_name}: numbers are needed, not {dtype}"
         ))),
     }
 }

@@ -31,7 +31,7 @@ pub(crate) struct RowChunks<'p> {
     chunk_size: &'p ChunkSize,
     stop: &'p AtomicBool,
     /// The error of the table that ended the iteration, if any.
-    pub(crate) fault: Option<TableError>,
+    pub(crate) error: Option<TableError>,
 }
 
 enum RowSource {
@@ -124,7 +124,7 @@ impl<'p> RowChunks<'p> {
             source,
             chunk_size: size,
             stop,
-            fault: None,
+            error: None,
         })
     }
 }
@@ -143,12 +143,12 @@ impl Iterator for RowChunks<'_> {
     type Item = RowChunk;
 
     fn next(&mut self) -> Option<RowChunk> {
-        if self.stop.load(Ordering::Relaxed) || self.fault.is_some() {
+        if self.stop.load(Ordering::Relaxed) || self.error.is_some() {
             return None;
         }
         let piece = self.source.next(self.chunk_size);
-        piece.unwrap_or_else(|fault| {
-            self.fault = Some(fault);
+        piece.unwrap_or_else(|error| {
+            self.error = Some(error);
             None
         })
     }
