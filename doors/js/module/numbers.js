@@ -153,7 +153,7 @@ export function nameOf(value, argumentName) {
   return value;
 }
 
-/** Makes a reader for one of several texts. `advice` has a hint for some texts that are not allowed. */
+/** Makes a reader for one of several texts. `advice` has hints for texts that callers may pass by mistake. */
 export function choiceOf(known, advice = {}) {
   const list = `${known.slice(0, -1).map(quoted).join(", ")} or ${quoted(known.at(-1))}`;
   return (value, argumentName) => {

@@ -9,7 +9,7 @@ import { Owned } from "./owned.js";
 import { writeMotion, writeRest } from "./places.js";
 import { classes, engine, numbersAt } from "./wasm.js";
 
-/** The names of the options of a question about contacts, about distances, and about the distance at time 0. */
+/** The options that each kind of question takes: about contacts, about distances, and about the distance at time 0. */
 const CONTACT_OPTIONS = ["motionA", "motionB", "duration", "tolerance", "margin", "budget"];
 const DISTANCE_OPTIONS = CONTACT_OPTIONS.filter((name) => name !== "margin");
 const STATIC_OPTIONS = DISTANCE_OPTIONS.filter((name) => name !== "duration");

@@ -45,7 +45,7 @@ export function classes() {
   return engine().classes;
 }
 
-/** Returns a view of numbers in the memory of the WebAssembly. Growth of the memory detaches it. */
+/** Returns a view of numbers in the memory of the WebAssembly. The view is detached when the memory grows. */
 export function numbersAt(address, count) {
   return new Float64Array(engine().memory.buffer, address, count);
 }

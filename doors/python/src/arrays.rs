@@ -56,7 +56,7 @@ impl<T> Elements<T> {
     }
 }
 
-/// Copies the elements of an array that NumPy has made.
+/// Copies the elements of a NumPy array.
 fn elements<T: Element + Copy>(
     array: &Bound<'_, PyAny>,
     dtype: &str,
@@ -107,7 +107,7 @@ pub(crate) fn finite_numbers<const N: usize>(
     match numbers.iter().position(|number| !number.is_finite()) {
         Some(entry) => {
             let number = numbers[entry];
-            let text = format!("{argument_name}: entry {entry} is {number}, no finite number");
+            let text = format!("{argument_name}: entry {entry} is {number}, not a finite number");
             Err(input_error(text))
         }
         None => Ok(numbers),
@@ -191,9 +191,9 @@ pub(crate) fn kind(array: &Bound<'_, PyAny>) -> PyResult<char> {
     array.getattr("dtype")?.getattr("kind")?.extract()
 }
 
-/// Calls `visit` with the values, and with each object in their nested lists that is not a number. It visits `depth`
-/// levels, one for each dimension of the array. The second argument of `visit` is the number of levels below the
-/// object.
+/// Calls `visit` with the values, and with each object in their nested lists that is not a number. `depth` is the number
+/// of levels below the values, one for each dimension of the array. The second argument of `visit` is the number of levels
+/// below the object.
 pub(crate) fn visit_parts<'py>(
     values: &Bound<'py, PyAny>,
     depth: usize,
@@ -228,7 +228,7 @@ fn is_nested(values: &Bound<'_, PyAny>) -> PyResult<bool> {
         && values.hasattr("__getitem__")?)
 }
 
-/// Refuses objects that are not numbers but that NumPy would convert to numbers: text, truth values and None.
+/// Returns an error for an object that NumPy would convert to a number although it is none: text, a truth value or None.
 fn check_objects(array: &Bound<'_, PyAny>, argument_name: &str) -> PyResult<()> {
     let numpy_bool = array.py().import("numpy")?.getattr("bool")?;
     for value in array.getattr("flat")?.try_iter()? {
@@ -238,7 +238,7 @@ fn check_objects(array: &Bound<'_, PyAny>, argument_name: &str) -> PyResult<()> 
         if is_text || is_truth || value.is_none() {
             let value = value.repr()?;
             return Err(input_error(format!(
-                "{argument_name}: {value} is no number"
+                "{argument_name}: {value} is not a number"
             )));
         }
     }

@@ -26,7 +26,7 @@ use std::path::PathBuf;
 /// Args:
 ///     vertices: array of shape (n, 3), in any unit of length.
 ///     faces: array of shape (m, 3), indices of vertices from 0.
-///     pieces: the convex pieces that represent the mesh: "auto", "triangles", "patches", "hull" for a convex solid, or
+///     pieces: the kind of convex pieces that represent the mesh: "auto", "triangles", "patches", "hull" for a convex solid, or
 ///         "outer-hull", which encloses any mesh.
 ///     surface: whether a closed mesh is a hollow surface instead of a solid.
 ///
@@ -51,7 +51,7 @@ pub(crate) struct PyBody {
     report: String,
 }
 
-/// The data from which pickle makes the body again.
+/// The data from which unpickling makes the body again.
 enum PickleData {
     Shape(ConstructorCall),
     Mesh(Box<StoredBodyContent>),
@@ -235,7 +235,7 @@ impl PyBody {
         PyBody::from_shape(Body::sphere(radius), recipe, report)
     }
 
-    /// Makes a capsule along z. `half_height` is the distance from its middle to the center of either cap.
+    /// Makes a capsule along z. `half_height` is the distance from its center to the center of either cap.
     #[classmethod]
     fn capsule(
         class: &Bound<'_, PyType>,
@@ -394,7 +394,7 @@ impl PyBody {
         let body = enclosure.and_then(|enclosure| enclosure.body());
         let body = body.map_err(input_error)?;
         let report = format!(
-            "{}, sticking out by up to {:.3e}",
+            "{}, exceeded by up to {:.3e}",
             solid_report(name, radius, half_height),
             body.excess()
         );

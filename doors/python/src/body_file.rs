@@ -17,9 +17,9 @@ pub(crate) struct BodyFile {
     pub(crate) part: Option<String>,
     pub(crate) adjustments: Adjustments,
     pub(crate) choice: PieceChoice,
-    /// Whether the options allow a prepared body.
+    /// Whether the file may be a prepared body: no option would change it.
     pub(crate) may_be_prepared: bool,
-    /// Whether the options have neither a unit nor a factor.
+    /// Whether coordinates are used as they are in the file: the options have neither a unit nor a factor.
     pub(crate) keeps_numbers: bool,
 }
 
@@ -30,7 +30,7 @@ impl BodyFile {
         // An unreadable file is an OSError. A pipe is refused, because it would block.
         let metadata = std::fs::metadata(&path).map_err(|error| file_error(&error, &path))?;
         if !metadata.is_file() {
-            return Err(input_error(format!("{}: is no file", path.display())));
+            return Err(input_error(format!("{}: is not a file", path.display())));
         }
         std::fs::File::open(&path).map_err(|error| file_error(&error, &path))?;
         if is_prepared_body_path(&path) && self.part.is_none() {

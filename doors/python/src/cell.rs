@@ -59,13 +59,13 @@ impl PyCell {
         })
     }
 
-    /// The robot, as it was given.
+    /// The robot that the cell was made with.
     #[getter]
     fn robot(&self, py: Python<'_>) -> Py<PyRobot> {
         self.robot.clone_ref(py)
     }
 
-    /// Adds an obstacle at a pose in the frame of the robot's base. Warns if its size is unlikely compared with the
+    /// Adds an obstacle at a pose in the frame of the robot's base. Warns if its size is improbable for this
     /// robot.
     #[pyo3(signature = (name, body, pose = None))]
     fn add_obstacle(
@@ -82,7 +82,7 @@ impl PyCell {
     }
 
     /// Adds a half-space as an obstacle: all points below the plane z = 0 of the frame at a pose. It is represented by
-    /// a large box. A path on which prismatic joints could reach the end of the box raises an InputError.
+    /// a large box. If prismatic joints could reach the end of the box on a path, the question raises an InputError.
     #[pyo3(signature = (name, pose = None))]
     fn add_plane(&self, name: &str, pose: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         self.state.add_plane(name, given_pose_or_identity(pose)?)
@@ -100,7 +100,7 @@ impl PyCell {
     }
 
     /// Attaches a body to a link, at a pose in the link's frame. The body may touch that link, and the items in
-    /// `may_touch`: links, attached bodies and obstacles. Warns if its size is unlikely compared with the robot.
+    /// `may_touch`: links, attached bodies and obstacles. Warns if its size is improbable for this robot.
     #[pyo3(signature = (name, body, link, pose = None, may_touch = Vec::new()))]
     fn attach(
         &self,
@@ -123,24 +123,24 @@ impl PyCell {
     }
 
     /// Allows two items to touch, even if they have a clearance. An item is a link, an attached body or an obstacle.
-    /// The permission ends when one of them is removed, and by `forbid_contact` and `set_clearance`.
+    /// The permission lasts until one of them is removed, or until `forbid_contact` or `set_clearance` is called for them.
     fn allow_contact(&self, a: &str, b: &str) -> PyResult<()> {
         self.state.set_contact(a, b, Contact::Allowed)
     }
 
-    /// Checks two items again that were allowed to touch, or checks two links that were not checked before.
+    /// Revokes the permission of two items to touch. For two links that are not checked, adds them to the checked pairs.
     fn forbid_contact(&self, a: &str, b: &str) -> PyResult<()> {
         self.state.set_contact(a, b, Contact::Forbidden)
     }
 
-    /// Remarks as texts: first on probable mistakes, then on what is not checked. They include the robot's remarks,
-    /// obstacles and attached bodies of an unlikely size, and allowed contacts.
+    /// Remarks as texts: first on probable mistakes, then on links and pairs that are not checked. They include the remarks
+    /// on the robot, on obstacles and attached bodies of an improbable size, and on allowed contacts.
     #[getter]
     fn remarks(&self) -> Vec<String> {
         remark_texts(&self.state.solvers.cell().remarks())
     }
 
-    /// Sets the padding of a link: the distance, in addition to the margin, that obstacles have to keep from it.
+    /// Sets the padding of a link: a distance that obstacles must keep from it, in addition to the margin.
     fn set_padding(
         &self,
         link: &str,
@@ -183,8 +183,8 @@ impl PyCell {
     /// Returns the first contact on a path, or None. Nothing touches before it. `start="leave"` is as for `is_free`.
     ///
     /// Raises:
-    ///     UnresolvedError: a limit was reached first. The path is free until `safe_until`, in segments of the path, or as a
-    ///         time on a curve.
+    ///     UnresolvedError: a limit was reached first. The path is free until `safe_until`, a number of segments of the path
+    ///         or a time on the curve.
     #[pyo3(signature = (path, **settings))]
     fn first_contact<'py>(
         &self,
@@ -198,7 +198,7 @@ impl PyCell {
     }
 
     /// Finds the first contact on a path of configurations, and proves the answer for each segment. A proof states that
-    /// all checked pairs are farther apart than their margins. It is about triangles only, and does not exclude that a
+    /// all checked pairs are farther apart than their margins. It is about triangles only: it does not prove that no
     /// body is inside another one. Curves have no proofs.
     ///
     /// Args:
@@ -244,15 +244,15 @@ impl PyCell {
         approach_object(py, &answer, clearance)
     }
 
-    /// Divides a path into ranges. In a range all pairs keep their required distance, or some pair certainly does not,
-    /// or neither is verified. The required distance is the setting `margin` plus paddings, or the clearance of a pair.
+    /// Divides a path into ranges. In each range, either all pairs keep their required distance, or some pair certainly does
+    /// not, or neither is proven. The required distance is the setting `margin` plus paddings, or the clearance of a pair.
     ///
     /// Args:
     ///     path: the path, such as `[[low], [high]]` for a mechanism with one joint.
     ///     resolution: the length of the shortest ranges that are examined, in segments of the path or of the curve.
-    ///     max_pose_error: a bound of how far points of links may be from their positions on the path. A closed loop of
-    ///         joints needs it: the path has configurations in which the loop is closed, and between them points differ
-    ///         by the error of the interpolation.
+    ///     max_pose_error: an upper bound of the distance between a point of a link and its position on the path. Use it for
+    ///         a closed loop of joints: the loop is closed in the configurations of the path, and between them the path
+    ///         differs from the mechanism by the error of the interpolation.
     ///
     /// Returns:
     ///     A list of `PathRange`, in the order of the path.

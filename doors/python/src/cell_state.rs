@@ -136,7 +136,7 @@ impl CellState {
 }
 
 /// Reads an argument that must be a body.
-pub(crate) fn read_body(given: &Bound<'_, PyAny>) -> PyResult<Py<PyBody>> {
-    extract_body(given, "body")?;
-    Ok(given.clone().cast_into::<PyBody>()?.unbind())
+pub(crate) fn read_body(body: &Bound<'_, PyAny>) -> PyResult<Py<PyBody>> {
+    extract_body(body, "body")?;
+    Ok(body.clone().cast_into::<PyBody>()?.unbind())
 }

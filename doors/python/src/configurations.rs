@@ -10,10 +10,10 @@ use rigid_ccd_robot::Robot;
 /// Reads configurations of a robot from anything that NumPy can convert to an array of numbers. The last index is the
 /// index of the joint.
 ///
-/// NumPy drops labels, so this function checks them. Labels of the last index, at any depth of nested lists, must be
-/// the names of the joints in their order, or default numbers. If they are not names, other indices must not have names
-/// either, because one of them may be meant as the index of joints. Names on the outermost object may end in `_deg`,
-/// for degrees.
+/// NumPy drops labels, so this function checks them. The labels of the last index, at any depth of nested lists, must be
+/// the names of the joints in their order, or default numbers. If they are default numbers, the other indices must not
+/// have names, because one of them could be the index of the joint. Names on the outermost object may end in `_deg`, for
+/// degrees.
 pub(crate) fn read_configurations(
     values: &Bound<'_, PyAny>,
     robot: &Robot,
@@ -40,9 +40,9 @@ pub(crate) fn read_configurations(
     Ok(configurations)
 }
 
-/// Refuses two data frames of starts and ends whose rows have the same labels in different orders, because NumPy pairs
-/// rows by position. Other labels are accepted: for instance, one frame may lack the last row of a table, and the other
-/// one its first row.
+/// Returns an error for data frames of starts and ends whose rows have the same labels in different orders, because NumPy
+/// pairs rows by position. Different labels are accepted: for instance, one frame may lack the last row of a table, and
+/// the other one its first row.
 pub(crate) fn check_same_rows([start, end]: [&Bound<'_, PyAny>; 2]) -> PyResult<()> {
     let (Some(starts), Some(ends)) = (labels_of_rows(start)?, labels_of_rows(end)?) else {
         return Ok(());
@@ -196,7 +196,7 @@ fn units_of_names(
     Ok(None)
 }
 
-/// Makes the error for labels that are not the names of the joints.
+/// Makes the error for labels that are not the names of the joints in their order.
 fn labels_error(labels: &[Bound<'_, PyAny>], robot: &Robot, argument_name: &str) -> PyErr {
     let joints: Vec<&str> = robot.independent_joint_names().collect();
     let labels = texts(labels).unwrap_or_else(|_| "no texts".to_owned());
@@ -206,7 +206,7 @@ fn labels_error(labels: &[Bound<'_, PyAny>], robot: &Robot, argument_name: &str)
     ))
 }
 
-/// Returns an attribute. Returns `None` if it is missing, a method or None.
+/// Returns an attribute, or `None` if the object does not have it, or its value is a method or None.
 fn attribute<'py>(object: &Bound<'py, PyAny>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
     let value = object.getattr_opt(name)?;
     Ok(value.filter(|value| !value.is_none() && !value.is_callable()))

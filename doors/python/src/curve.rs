@@ -70,11 +70,11 @@ impl Polynomials {
             let value = |power| values[(power * segments + segment) * joints + joint];
             lowest_first.map(value).collect()
         };
-        let of_segment = |segment| {
+        let segment_polynomials = |segment| {
             let joints = 0..joints;
             joints.map(|joint| polynomial(segment, joint)).collect()
         };
-        let segments: Vec<Vec<Vec<f64>>> = (0..segments).map(of_segment).collect();
+        let segments: Vec<Vec<Vec<f64>>> = (0..segments).map(segment_polynomials).collect();
         let curve = JointCurve::from_polynomials(&self.times, &segments);
         curve.map_err(|error| input_error(format!("path: {error}")))
     }
@@ -103,12 +103,12 @@ fn curve_of_spline(
         .len()
         .saturating_sub(degree + 1)
         .min(coefficient_count);
-    let of_joint = |joint: usize| {
+    let joint_coefficients = |joint: usize| {
         (0..bases)
             .map(|basis| values[basis * joints + joint])
             .collect()
     };
-    let joints: Vec<Vec<f64>> = (0..joints).map(of_joint).collect();
+    let joints: Vec<Vec<f64>> = (0..joints).map(joint_coefficients).collect();
     let curve = JointCurve::from_b_spline(degree, &knots, &joints);
     curve.map_err(|error| input_error(format!("path: {error}")))
 }

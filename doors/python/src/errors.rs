@@ -15,7 +15,7 @@ pyo3::import_exception!(rigid_ccd._errors, InputError);
 pyo3::import_exception!(rigid_ccd._errors, UnresolvedError);
 pyo3::import_exception!(rigid_ccd._errors, InterruptError);
 
-/// Runs code of libraries that panic on some tables or arrays, and converts a panic to an `InputError`.
+/// Runs code of libraries that panics on some tables or arrays, and converts a panic to an `InputError`.
 ///
 /// Python could not catch a panic with `except Exception`.
 pub(crate) fn run_catching_panics<T>(
@@ -34,7 +34,7 @@ pub(crate) fn run_catching_panics<T>(
 /// Converts a panic to a `RuntimeError` that asks the user to report it, because no known input causes it.
 pub(crate) fn panic_error(panic: &(dyn Any + Send)) -> PyErr {
     PyRuntimeError::new_err(format!(
-        "a fault of rigid_ccd, please report it: {}",
+        "a defect of rigid_ccd, please report it: {}",
         panic_message(panic)
     ))
 }
@@ -51,9 +51,9 @@ pub(crate) fn input_error(error: impl Display) -> PyErr {
     InputError::new_err(error.to_string())
 }
 
-/// Converts an error of a table to an `InputError`. If Ctrl-C caused it, returns a `KeyboardInterrupt`.
+/// Converts an error of a table to an `InputError`, or to a `KeyboardInterrupt` if Ctrl-C caused it.
 ///
-/// A stream passes the text of an exception, and not the exception, so Ctrl-C is recognised by its text.
+/// A stream passes only the text of an exception, so Ctrl-C is recognised by the text.
 pub(crate) fn input_error_or_interrupt(error: impl Display) -> PyErr {
     let text = error.to_string();
     let last = text.trim_end().lines().next_back().unwrap_or_default();
@@ -65,8 +65,8 @@ pub(crate) fn input_error_or_interrupt(error: impl Display) -> PyErr {
     }
 }
 
-/// Converts an exception to an `InputError` with the exception as its cause. Returns exceptions that end the program,
-/// such as that of Ctrl-C, unchanged.
+/// Converts an exception to an `InputError` with the exception as its cause. Returns an exception that ends the program,
+/// such as `KeyboardInterrupt`, unchanged.
 pub(crate) fn input_error_from(py: Python<'_>, argument_name: &str, cause: PyErr) -> PyErr {
     if !cause.is_instance_of::<PyException>(py) {
         return cause;
@@ -117,14 +117,14 @@ pub(crate) fn unresolved_distance_error(py: Python<'_>, known: &answer::Unresolv
     with_bounds(py, error, [lower, upper])
 }
 
-/// Makes the exception for work that was ended by Ctrl-C, or by an exception of a signal handler or a callback. It has
-/// the results so far.
+/// Makes the exception for work that ended because of Ctrl-C, or of an exception in a signal handler or a callback. Its
+/// attribute `results` has the results so far.
 pub(crate) fn interruption_error<'py>(
     py: Python<'py>,
     cause: PyErr,
     results: impl IntoPyObject<'py>,
 ) -> PyErr {
-    let text = "interrupted; `results` has what was answered by then";
+    let text = "interrupted; `results` has the answers so far";
     with_attribute(
         py,
         interruption(py, cause, text.to_owned()),
@@ -164,8 +164,9 @@ fn interruption(py: Python<'_>, cause: PyErr, text: String) -> PyErr {
     error
 }
 
-/// Warns the Python program of input that is valid, but probably a mistake. The warning refers to the line of Python
-/// `calls_up` calls up. Python shows equal texts from one line only once, so texts should not contain numbers.
+/// Warns the Python program of input that is valid, but probably a mistake. `calls_up` is the number of calls between this
+/// function and the line of Python that the warning names. Python shows each text from one line only once, so texts should
+/// not contain numbers.
 pub(crate) fn warn(
     py: Python<'_>,
     remarks: impl IntoIterator<Item = Remark>,
@@ -178,7 +179,7 @@ pub(crate) fn warn(
     Ok(())
 }
 
-/// Makes a `TypeError` that names the needed type and the given one.
+/// Makes a `TypeError` that names the needed type and the type of the argument.
 pub(crate) fn wrong_type_error(
     argument_name: &str,
     needed: &str,

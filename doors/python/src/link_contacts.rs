@@ -50,14 +50,14 @@ impl LinkContactQuestion<'_, '_> {
                 decided.fetch_max(decided_count, Ordering::Relaxed);
             })
         };
-        let (classes, seen) = run_with_progress(py, progress, work)?;
+        let (classes, interruption) = run_with_progress(py, progress, work)?;
         let classes = classes.map_err(input_error)?;
-        if let (Some(path), Ok(())) = (srdf, &seen) {
+        if let (Some(path), Ok(())) = (srdf, &interruption) {
             let text = robot.to_srdf(pairs, &classes);
             std::fs::write(&path, text).map_err(|error| file_error(&error, &path))?;
         }
         let batch = link_contact_table(robot, &classes).map_err(input_error)?;
-        results_or_interruption(py, PyTable { batch }, seen)
+        results_or_interruption(py, PyTable { batch }, interruption)
     }
 }
 

@@ -13,7 +13,7 @@ use rigid_ccd::{Motion, Pose, Remark};
 /// this size. The engine uses the rotation of the unit quaternion nearest to the matrix.
 const ORTHONORMALITY_TOLERANCE: f64 = 1e-5;
 
-/// A motion: a pose at time 0, a constant velocity of a center, and a constant angular velocity about it.
+/// A motion: a pose at time 0, a constant velocity of the center of rotation, and a constant angular velocity about it.
 ///
 /// Args:
 ///     position: the position of the body's origin at time 0, three numbers.

@@ -1,4 +1,4 @@
-//! The Python class of paths through poses.
+//! The Python class `PosePath`.
 
 use crate::arrays::{finite_numbers, flat_numbers, rows};
 use crate::errors::input_error;
@@ -17,9 +17,9 @@ use rigid_ccd::trajectory::{PosePath, Trajectory};
 ///     times: increasing times, one for each pose.
 ///     poses: one pose for each time, in the forms of `Motion.between`, for instance an array of shape (n, 4, 4).
 ///     center: the point in the body's frame that moves on straight lines; the body's origin by default.
-///     angular_velocities: angular velocities in the world, one from each pose to the next, of shape (n - 1, 3). An angular velocity
-///         may miss the next pose by at most a quarter turn; the rest is added as a second rotation. Zeros stand for
-///         the shortest rotation.
+///     angular_velocities: angular velocities in the world, one from each pose to the next, of shape (n - 1, 3). The rotation
+///         that it gives may differ from the next pose by at most a quarter turn; the difference is added as a second
+///         rotation. Zeros stand for the shortest rotation.
 ///
 /// >>> import numpy as np
 /// >>> from rigid_ccd import PosePath

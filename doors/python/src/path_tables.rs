@@ -1,6 +1,6 @@
 //! Answers a question about each of many paths, as a table.
 
-use crate::cell_remarks::{Asked, warn_of_question};
+use crate::cell_remarks::{AskedPaths, warn_of_question};
 use crate::cell_solver::CellWithCachedSolvers;
 use crate::errors::input_error;
 use crate::path_answers::question_named;
@@ -34,7 +34,7 @@ pub(crate) fn answer_paths(
     let question = question_named(arguments.question)?;
     let mut settings = read(arguments.settings, &names(question, &[]))?;
     settings.check().map_err(input_error)?;
-    let asked = PathQuestion {
+    let path_question = PathQuestion {
         question,
         clearance: settings.clearance.take(),
     };
@@ -42,7 +42,7 @@ pub(crate) fn answer_paths(
     cell.check_any_compared().map_err(input_error)?;
     let threads = read_thread_count(arguments.threads)?;
     let paths = read_paths()?;
-    warn_of_question(py, &cell, &Asked::Paths(&paths), settings.tolerance)?;
+    warn_of_question(py, &cell, &AskedPaths::Paths(&paths), settings.tolerance)?;
     let progress = GivenProgress {
         progress: arguments.progress,
         total: Some(paths.count()),
@@ -50,17 +50,17 @@ pub(crate) fn answer_paths(
     let work = |stop: &Arc<AtomicBool>, done: &AtomicUsize| {
         let settings = settings.stopped_by(stop);
         let task = Task {
-            question: asked,
+            question: path_question,
             settings: &settings,
             stop,
             done,
         };
         task.answer(solvers, threads, &paths)
     };
-    let (rows, seen) = run_with_progress(py, progress, work)?;
+    let (rows, interruption) = run_with_progress(py, progress, work)?;
     let batch = py.detach(|| path_result_batch(question, &rows));
     let batch = batch.map_err(input_error)?;
-    results_or_interruption(py, PyTable { batch }, seen)
+    results_or_interruption(py, PyTable { batch }, interruption)
 }
 
 /// A question about many paths, which a flag can stop.

@@ -1,7 +1,7 @@
 //! The Python functions that write and check machine-checkable proofs.
 
 use crate::body::extract_body;
-use crate::cell_remarks::{Asked, warn_of_question};
+use crate::cell_remarks::{AskedPaths, warn_of_question};
 use crate::errors::{
     input_error, interruption_error, path_limit_error, time_interruption, unresolved_error,
     with_attribute, wrong_type_error,
@@ -23,7 +23,7 @@ use rigid_ccd_robot::{Cell, PathAnswer, PathOutcome};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Makes Python `Proof`s that share the same meshes.
+/// Makes Python `Proof` objects that share the same meshes.
 fn proof_objects<'a, 'py>(
     py: Python<'py>,
     proofs: &[Proof],
@@ -43,7 +43,7 @@ fn proof_objects<'a, 'py>(
 /// at all.
 ///
 /// Arguments and exceptions are those of `first_contact`, except that each motion is a `Motion` or None. The proof is
-/// about triangles only, and does not exclude that a body is inside another one.
+/// about triangles only: it does not prove that no body is inside another one.
 ///
 /// Raises:
 ///     InputError: a body has no triangles, the bodies touch at the start, or the answer cannot be proven.
@@ -89,14 +89,14 @@ pub(crate) fn prove<'py>(
         let pair = ProvenPair::unless_stopped(a, b, stop)?;
         Some(pair.map(prove))
     };
-    let (proven, seen) = run_interruptibly(py, work, |_| Ok(()))?;
+    let (proven, interruption) = run_interruptibly(py, work, |_| Ok(()))?;
     let safe_until = match answer.outcome {
         Outcome::Free { .. } => Some(duration),
         Outcome::Contact { time, .. } => Some(time),
         Outcome::Unresolved(known) => Some(known.safe_until),
         _ => None,
     };
-    seen.map_err(|cause| time_interruption(py, cause, safe_until))?;
+    interruption.map_err(|cause| time_interruption(py, cause, safe_until))?;
     let proven = proven.ok_or_else(|| input_error("the proof was stopped"))?;
     let (pair, proof) = proven.map_err(|error: NoMesh| input_error(error))?;
     let proof = proof.transpose().map_err(input_error)?;
@@ -108,7 +108,7 @@ pub(crate) fn prove<'py>(
         }
         _ => objects
             .pop()
-            .ok_or_else(|| input_error("a and b touch at the start: there is nothing to prove")),
+            .ok_or_else(|| input_error("a and b touch at the start, so there is nothing to prove")),
     }
 }
 
@@ -121,7 +121,7 @@ pub(crate) fn prove_path<'py>(
     settings: Settings,
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let path = GivenPath::read(path, cell.robot())?;
-    warn_of_question(py, cell, &Asked::Path(&path), settings.tolerance)?;
+    warn_of_question(py, cell, &AskedPaths::Path(&path), settings.tolerance)?;
     let path = match path {
         GivenPath::Configurations(path) => path,
         GivenPath::Curve(_) => {
@@ -141,14 +141,14 @@ pub(crate) fn prove_path<'py>(
     };
     let work =
         |stop: &Arc<_>, done: &AtomicUsize| PathProofs::find(cell, &path, (settings, stop), done);
-    let (found, seen) = run_with_progress(py, progress, work)?;
+    let (path_proofs, interruption) = run_with_progress(py, progress, work)?;
     let PathProofs {
         meshes,
         proofs,
         error,
-    } = found.map_err(input_error)?;
+    } = path_proofs.map_err(input_error)?;
     let proofs = proof_objects(py, &proofs, &meshes)?;
-    match (seen, error) {
+    match (interruption, error) {
         (Err(cause), _) => Err(interruption_error(py, cause, proofs)),
         (Ok(()), Some(error)) => Err(with_attribute(py, error, "results", proofs)),
         (Ok(()), None) => Ok(proofs),
@@ -198,7 +198,7 @@ impl PathProofs {
             return Ok(PathProofs::default());
         };
         let settings = settings.stopped_by(stop);
-        let mut found = PathProofs {
+        let mut path_proofs = PathProofs {
             meshes: proven.meshes().cloned().collect(),
             ..PathProofs::default()
         };
@@ -207,17 +207,17 @@ impl PathProofs {
             Ok(answer) => {
                 for proof in proven.path_proofs(path, &answer, &settings) {
                     match proof {
-                        Ok(proof) => found.proofs.push(proof),
-                        Err(error) => found.error = Some(input_error(error)),
+                        Ok(proof) => path_proofs.proofs.push(proof),
+                        Err(error) => path_proofs.error = Some(input_error(error)),
                     }
                     done.fetch_add(1, Ordering::Relaxed);
                 }
-                let missing = || missing_proof_error(&answer, &found.proofs);
-                found.error = found.error.or_else(missing);
+                let missing = || missing_proof_error(&answer, &path_proofs.proofs);
+                path_proofs.error = path_proofs.error.or_else(missing);
             }
-            Err(error) => found.error = Some(input_error(error)),
+            Err(error) => path_proofs.error = Some(input_error(error)),
         }
-        Ok(found)
+        Ok(path_proofs)
     }
 }
 
@@ -252,8 +252,8 @@ pub(crate) fn check_proof(
     proof: Vec<u8>,
     meshes: Vec<(Vec<u8>, Vec<u8>)>,
 ) -> PyResult<String> {
-    let of_meshes = meshes.iter().map(|(mesh, tree)| mesh.len() + tree.len());
-    let bytes = proof.len() + of_meshes.sum::<usize>();
+    let mesh_sizes = meshes.iter().map(|(mesh, tree)| mesh.len() + tree.len());
+    let bytes = proof.len() + mesh_sizes.sum::<usize>();
     let check = move || {
         let read = |(mesh, tree): &(Vec<u8>, Vec<u8>)| ccd_check::Body::new(mesh, tree, &proof);
         let bodies = meshes.iter().map(read).collect::<Result<Vec<_>, _>>()?;
@@ -278,7 +278,7 @@ pub(crate) fn read_proof(proof: &[u8]) -> PyResult<(f64, bool, Vec<String>)> {
 }
 
 fn read_statement(proof: &[u8]) -> PyResult<Statement> {
-    Statement::read(proof).ok_or_else(|| input_error("this is no proof"))
+    Statement::read(proof).ok_or_else(|| input_error("these bytes are not a proof"))
 }
 
 /// Returns the statement of a proof as a text. Fails if the bytes are not a proof.

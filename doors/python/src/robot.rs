@@ -31,11 +31,11 @@ use std::sync::Arc;
 ///     joints: the joints, in the order of positions in configurations.
 ///     bodies: a dict from names of links to the bodies fixed to them. Each value is a Body, or a list of pairs of a
 ///         Body and its pose in the link's frame.
-///     may_touch: pairs of links that are not checked. Neighbours are never checked either.
+///     may_touch: pairs of links that are not checked. Links that are connected by a joint are never checked.
 ///
 /// >>> from rigid_ccd import Body, Joint, Robot, first_contact
 /// >>> shoulder = Joint.revolute("shoulder", "base", "upper arm")
-/// >>> elbow = Joint.revolute("elbow", "upper arm", "forearm", ([1, 0, 0], [1, 0, 0, 0]))
+/// >>> elbow = Joint.revolute("elbow", "upper arm", "forearm", ([1, 0, 0], [0, 0, 0, 1]))
 /// >>> arm = Robot([shoulder, elbow], {"forearm": Body.sphere(0.1)})
 /// >>> turns = arm.link_trajectory("forearm", [0.3, 0.5], [1.3, -1.5])
 /// >>> bool((turns.pose(1) == arm.pose("forearm", [1.3, -1.5])).all())
@@ -209,7 +209,7 @@ impl PyRobot {
     ///
     /// >>> from rigid_ccd import Body, Cell, Robot
     /// >>> ball = Robot([], {"body": Body.sphere(1)})
-    /// >>> both = Robot.combined({"red": ball, "blue": ball}, {"blue": ([5, 0, 0], [1, 0, 0, 0])}, {"red": "planar"})
+    /// >>> both = Robot.combined({"red": ball, "blue": ball}, {"blue": ([5, 0, 0], [0, 0, 0, 1])}, {"red": "planar"})
     /// >>> both.joint_names
     /// ['red/base/x', 'red/base/y', 'red/base/yaw']
     /// >>> contact = Cell(both).first_contact([[0, 0, 0], [6, 0, 0]])
@@ -260,7 +260,8 @@ impl PyRobot {
         })
     }
 
-    /// The names of the joints that have a position of their own, in the order of a configuration.
+    /// The names of the independent joints, in the order of a configuration: all except fixed joints and joints that follow
+    /// another one.
     #[getter]
     fn joint_names(&self) -> Vec<&str> {
         self.robot.independent_joint_names().collect()
@@ -289,16 +290,15 @@ impl PyRobot {
         pairs.map(|[a, b]| (name(a), name(b))).collect()
     }
 
-    /// Remarks as texts. The first are on probable mistakes: elements of files that are left out, an SRDF of another
-    /// robot, sizes and angles in another unit. The others are on what is not checked: links without bodies, and pairs
-    /// of links by reason.
+    /// Remarks as texts: first on probable mistakes, such as elements of files that are left out, an SRDF of another robot,
+    /// or sizes and angles in another unit; then on links without bodies, and on pairs of links that are not checked.
     #[getter]
     fn remarks(&self) -> Vec<String> {
         remark_texts(&self.pairs.remarks(&self.robot))
     }
 
-    /// Finds the column of a joint among names of columns. The name is the prefix, then the joint's name. Returns the
-    /// name, and whether its positions are in degrees.
+    /// Finds the column of a joint among the names of columns: the prefix, the joint's name, and `_deg` for degrees. Returns
+    /// the name of the column, and whether it is in degrees.
     fn _joint_column(
         &self,
         names: Vec<String>,
@@ -333,7 +333,7 @@ impl PyRobot {
     /// Returns the motion of a link while each joint moves at a constant rate from its position in `start` to its
     /// position in `end`, as along an edge of a motion planner's roadmap.
     ///
-    /// All queries take it in place of a `Motion`. Answers are about the exact curve of the link, and not about sampled
+    /// All queries take it in place of a `Motion`. Answers hold for the exact curve of the link, without sampled
     /// steps.
     ///
     /// Args:
@@ -369,9 +369,9 @@ impl PyRobot {
         slf.get().constructor_call.reduce_tuple(slf.get_type())
     }
 
-    /// Decides for each pair of links with bodies whether they touch never, always, or sometimes, within the limits of
-    /// all joints. "never" and "always" are proven. "sometimes" is shown by two configurations, which `ccd acm
-    /// --report` writes.
+    /// Decides for each pair of links with bodies whether the links touch never, always or sometimes, within the limits of
+    /// all joints. "never" and "always" are proven. For "sometimes", there are two configurations as evidence, which
+    /// `ccd acm --report` writes.
     ///
     /// Args:
     ///     max_boxes: the average number of boxes of joint positions to examine for a pair. Each takes some
@@ -437,7 +437,7 @@ impl PyRobot {
 
     /// Returns the remarks on the files that the robot is from.
     pub(crate) fn file_remarks(&self) -> impl Iterator<Item = &CellRemark> {
-        let of_pairs = self.pairs.file_remarks();
-        self.robot.file_remarks().iter().chain(of_pairs)
+        let pair_remarks = self.pairs.file_remarks();
+        self.robot.file_remarks().iter().chain(pair_remarks)
     }
 }

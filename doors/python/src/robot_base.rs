@@ -6,15 +6,18 @@ use pyo3::prelude::*;
 use pyo3::types::PyMapping;
 use rigid_ccd_robot::CompoundKind;
 
-/// The pose of a robot's base, in the world or on a link, and how it moves, in the names of Python.
+/// The base of a robot: the link that carries it, its pose, and how it moves.
 pub(crate) struct RobotBase {
+    /// The link that carries the base; `None` for the world.
     pub(crate) carrier: Option<String>,
+    /// The pose in the frame of the carrier.
     pub(crate) pose: GivenPose,
+    /// "fixed", "planar" or "floating".
     pub(crate) motion_name: String,
 }
 
 impl RobotBase {
-    /// Reads the bases of the robots `names`. The dicts have poses, kinds of bases and carriers for some of them.
+    /// Reads the base of each robot in `names`. The dicts have the poses, motions and carriers of some bases.
     pub(crate) fn read_all(
         names: &[String],
         poses: Option<&Bound<'_, PyMapping>>,

@@ -49,23 +49,23 @@ pub(crate) fn read_robot(
     run_or_leave(py, u64::MAX, read)?
 }
 
-/// Refuses the text of a robot in place of a path.
+/// Returns an error if a path is the text of a robot.
 pub(crate) fn check_path(path: &Path) -> PyResult<()> {
     if path.to_string_lossy().trim_start().starts_with('<') {
         return Err(input_error(
-            "path: this is the text of a robot, and not the path of a file; Robot.from_urdf_text reads that of a URDF",
+            "path: this is the text of a robot, not the path of a file; Robot.from_urdf_text reads the text of a URDF",
         ));
     }
     Ok(())
 }
 
-/// Refuses the path of a file in place of the text of a robot.
+/// Returns an error if the text of a robot is the path of a file.
 pub(crate) fn check_text(text: &str) -> PyResult<()> {
     if text.contains('<') {
         return Ok(());
     }
     Err(input_error(
-        "text: this is no XML; Robot.from_urdf reads the file at a path",
+        "text: this is not XML; Robot.from_urdf reads the file at a path",
     ))
 }
 

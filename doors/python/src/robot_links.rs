@@ -7,8 +7,8 @@ use pyo3::types::{PyDict, PyMapping};
 use rigid_ccd_robot::{Joint, Link, LinkBody};
 use std::sync::Arc;
 
-/// Makes the links that joints name, and the links that have bodies. Also returns the bodies as they were read, for
-/// pickle, because the caller may change the arguments.
+/// Makes the links that joints name, and the links that have bodies. Also returns a copy of the dict of bodies for pickle,
+/// because the caller may change the dict.
 pub(crate) fn read_links<'py>(
     py: Python<'py>,
     joints: &[Joint],

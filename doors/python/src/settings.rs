@@ -8,8 +8,8 @@ use pyo3::types::PyDict;
 use rigid_ccd::{Question, Setting, SettingField, Settings, StartPolicy};
 use std::time::Duration;
 
-/// The settings that questions about two bodies, proofs and ranges do not take: they always report pairs in contact at
-/// the start.
+/// The settings that questions about two bodies, proofs and ranges do not take, because they always report contacts at the
+/// start.
 pub(crate) const REPORTING_START: &[&str] = &["start"];
 
 /// Returns the names of the settings of a question, except for `left_out`.
@@ -88,7 +88,7 @@ fn deadline(seconds: Option<f64>) -> PyResult<Option<Duration>> {
     let deadline = finite.map(Duration::try_from_secs_f64).transpose();
     deadline.map_err(|_| {
         input_error(format!(
-            "deadline: {} is no number of seconds from 0",
+            "deadline: {} is not a number of seconds from 0 on",
             seconds.unwrap_or_default()
         ))
     })

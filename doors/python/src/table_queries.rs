@@ -31,9 +31,9 @@ pub(crate) fn answer_table(
     micros: bool,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<PyTable> {
-    let question = self::question_named(question)?;
+    let question = question_named(question)?;
     let settings = settings::read(settings, &allowed_setting_names(question))?;
-    let asked = TableQuestion {
+    let table_question = TableQuestion {
         bodies: BodyPair {
             a: extract_body(a, "a")?,
             b: extract_body(b, "b")?,
@@ -50,16 +50,16 @@ pub(crate) fn answer_table(
         progress,
         total: input::expected_answer_count(motions, &reader),
     };
-    let work = |stop: &_, done: &_| answer(asked, reader, stop, done);
-    let (found, seen) = run_with_progress(py, progress, work)?;
-    let found = found.map_err(|error| table_error(&error))?;
+    let work = |stop: &_, done: &_| answer(table_question, reader, stop, done);
+    let (answers, interruption) = run_with_progress(py, progress, work)?;
+    let answers = answers.map_err(|error| table_error(&error))?;
     let TableAnswers {
         results,
         error: row_error,
         remarks,
-    } = found;
+    } = answers;
     let table = PyTable { batch: results };
-    match (seen, row_error) {
+    match (interruption, row_error) {
         (Err(cause), _) => Err(interruption_error(py, cause, table)),
         (Ok(()), Some(row_error)) => Err(match table_error(&row_error) {
             error if error.is_instance_of::<PyKeyboardInterrupt>(py) => {

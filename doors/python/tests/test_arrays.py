@@ -100,7 +100,7 @@ READS: dict[str, tuple[Any, Callable[[Any], Any]]] = {
     "center": ([1, 2, -3], lambda a: Motion(angular_velocity=[1, 2, 3], center=a).pose(1).tolist()),
     "pose": (pose(TURN), lambda a: repr(Motion.still(a))),
     "pair": ([1, 2, -3], lambda a: repr(Motion.still((a, [0, 0, 0, 1])))),
-    "times": ([0, 1, 2.5], lambda a: PosePath(a, [pose(TURN)] * 3).pose(0.5).tolist() + [Path(a, [pose(TURN)] * 3).end]),
+    "times": ([0, 1, 2.5], lambda a: PosePath(a, [pose(TURN)] * 3).pose(0.5).tolist() + [PosePath(a, [pose(TURN)] * 3).end]),
     "poses": ([pose(np.eye(3)), pose(TURN)], lambda a: PosePath([0, 1], a).pose(0.25).tolist()),
     "angular_velocities": ([[0.25, 0.5, 0], [-0.25, 0, 0.5]], lambda a: PosePath([0, 1, 2], [np.eye(4)] * 3, angular_velocities=a).pose(1.5).tolist()),
     "axis": ([1, 2, -2], axis_of),
@@ -291,9 +291,9 @@ def test_columns_of_a_frame_are_joints() -> None:
             lambda frame: CELL.answer_edges(frame, PATH),
             lambda frame: CELL.answer_edges(PATH, frame),
         ):
-            with pytest.raises(InputError, match="the labels are y, x, and the joints of a configuration x, y"):
+            with pytest.raises(InputError, match="the labels are y, x, but the joints are x, y"):
                 use(make(bad))
-        with pytest.raises(InputError, match="the labels are a, b, and"):
+        with pytest.raises(InputError, match="the labels are a, b, but"):
             CELL.first_contact(make({"a": good["x"], "b": good["y"]}))
     assert repr(CELL.first_contact(pandas.DataFrame(bad)[CELL.robot.joint_names])) == known
     series = pandas.Series({"y": 1.0, "x": 0.0})

@@ -33,7 +33,7 @@ def test_a_cube_is_a_solid_of_one_piece() -> None:
     cube = Body(CORNERS, FACES)
     assert cube.is_solid and cube.piece_count == 1
     assert "solid" in repr(cube)
-    assert Body(CORNERS, FACES, pieces="triangles").pieces == 12
+    assert Body(CORNERS, FACES, pieces="triangles").piece_count == 12
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64, np.int16])
@@ -87,7 +87,7 @@ def test_round_bodies_tell_how_far_they_stick_out(make: Callable[..., Body], tmp
     usual, fine = make(2, 1), make(2, 1, excess=1e-5)
     assert 0 < usual.excess <= 2 / 4096
     assert 0 < fine.excess <= 1e-5
-    assert usual.is_solid and "sticking out" in repr(usual)
+    assert usual.is_solid and "exceeded by" in repr(usual)
     for again in (pickle.loads(pickle.dumps(fine)), saved(fine, tmp_path / "fine.ccd")):
         assert again.excess == fine.excess
     for radius, half_height, excess in ((-1, 1, None), (1, float("nan"), None), (1, 1, 1e-9), (1, 1, float("nan"))):
@@ -105,14 +105,14 @@ def test_files_are_read(tmp_path: Path) -> None:
     lines = ["v " + " ".join(map(str, v)) for v in CORNERS] + ["f " + " ".join(map(str, f + 1)) for f in FACES]
     path.write_text("\n".join(lines))
     assert Body.from_file(path).is_solid
-    assert Body.from_file(str(path)).pieces == 1
+    assert Body.from_file(str(path)).piece_count == 1
     with pytest.raises(FileNotFoundError) as missing:
         Body.from_file(tmp_path / "nothing.obj")
     assert missing.value.filename == str(tmp_path / "nothing.obj")
     # Reading a pipe without a writer would block.
     os.mkfifo(tmp_path / "pipe.obj")
     for other in ("pipe.obj", "."):
-        with pytest.raises(InputError, match="is no file"):
+        with pytest.raises(InputError, match="is not a file"):
             Body.from_file(tmp_path / other)
     with pytest.raises(InputError, match="unit"):
         Body.from_file(path, unit="mile")  # type: ignore[arg-type]

@@ -204,7 +204,7 @@ def test_a_cell_is_pickled_as_it_is(robot: Robot) -> None:
     assert repr(again) == repr(cell)
     start, end = rng.uniform(-3, 3, (2, 300, 2))
     for ask in ("is-free", "first-contact", "closest-approach"):
-        one, other = (each.edges(start, end, question=ask) for each in (cell, again))
+        one, other = (each.answer_edges(start, end, question=ask) for each in (cell, again))
         for column in one:
             assert [*one[column]] == [*other[column]] or np.array_equal(one[column], other[column], equal_nan=True)
     assert 0 < np.sum(cell.answer_edges(start, end)["status"] == "free") < 300
@@ -244,7 +244,7 @@ def test_edges_of_tables_are_those_of_arrays(robot: Robot) -> None:
     in_degrees = {"id": ids, "from_shoulder_deg": np.rad2deg(start), "to_shoulder": end}
     found = query(in_degrees)
     assert [*found["status"]] == [*expected["status"]] and np.nanmax(np.abs(found["time"] - expected["time"])) < 1e-9
-    for more, message in ((["from_shoulder"], "two columns for the joint shoulder"), (["from_elbow_deg"], "elbow, which rests")):
+    for more, message in ((["from_shoulder"], "two columns for the joint shoulder"), (["from_elbow_deg"], "elbow has columns, but also a position")):
         with pytest.raises(InputError, match=message):
             query({**in_degrees, **{name: start for name in more}})
     with pytest.raises(InputError, match="knee"):

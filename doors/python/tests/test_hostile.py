@@ -240,7 +240,7 @@ def test_exceptions_have_their_attributes() -> None:
     for make in (UnresolvedError, InputError, InterruptError):
         made: Any = make("text")
         assert getattr(made, "results", None) is None
-    plain = Unresolved("text")
+    plain = UnresolvedError("text")
     assert (plain.safe_until, plain.lower, plain.upper) == (None, None, None)
     motion = Motion([-3, 0, 0], velocity=[4, 0, 0])
     with pytest.raises(UnresolvedError, match="the budget is spent: a larger tolerance") as of_contact:

@@ -84,7 +84,7 @@ pub(crate) unsafe fn text_or_none<'a>(
 /// # Safety
 /// `out` is null, or points to memory for a handle.
 pub(crate) unsafe fn give<T>(out: *mut *mut T, value: T) -> Result<(), Failure> {
-    check_output("the output", out)?;
+    check_output("out", out)?;
     // SAFETY: the caller's contract; `out` is neither null nor misaligned.
     unsafe { out.write(Box::into_raw(Box::new(value))) };
     Ok(())

@@ -189,7 +189,7 @@ pub unsafe extern "C" fn rccd_body_piece_count(
         let body = unsafe { reference("body", body) }?;
         let count = body.0.pieces().len();
         // SAFETY: the contract of this function.
-        unsafe { store("the output", out, count) }
+        unsafe { store("out", out, count) }
     })
 }
 
@@ -205,7 +205,7 @@ pub unsafe extern "C" fn rccd_body_is_solid(body: *const RccdBody, out: *mut i32
         let body = unsafe { reference("body", body) }?;
         let is_solid = i32::from(body.0.solidity() == Solidity::Solid);
         // SAFETY: the contract of this function.
-        unsafe { store("the output", out, is_solid) }
+        unsafe { store("out", out, is_solid) }
     })
 }
 
@@ -221,7 +221,7 @@ pub unsafe extern "C" fn rccd_body_excess(body: *const RccdBody, out: *mut f64) 
         let body = unsafe { reference("body", body) }?;
         let excess = body.0.excess();
         // SAFETY: the contract of this function.
-        unsafe { store("the output", out, excess) }
+        unsafe { store("out", out, excess) }
     })
 }
 

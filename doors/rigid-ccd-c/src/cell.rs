@@ -132,7 +132,7 @@ pub unsafe extern "C" fn rccd_cell_joint_count(
         // SAFETY: the contract of this function.
         let cell = unsafe { reference("cell", cell) }?;
         // SAFETY: the contract of this function.
-        unsafe { store("the output", out, joint_count(&cell.cell)) }
+        unsafe { store("out", out, joint_count(&cell.cell)) }
     })
 }
 
@@ -335,7 +335,7 @@ pub unsafe extern "C" fn rccd_cell_check_summary(
     out: *mut RccdText,
 ) -> RccdStatus {
     status_of(|| {
-        check_output("the output", out)?;
+        check_output("out", out)?;
         // SAFETY: the contract of this function.
         let RccdCell {
             cell,
@@ -348,7 +348,7 @@ pub unsafe extern "C" fn rccd_cell_check_summary(
             check_summary.push_str(&format!("\n{kind}{remark}"));
         }
         // SAFETY: the contract of this function.
-        unsafe { store("the output", out, check_summary.as_str().into()) }
+        unsafe { store("out", out, check_summary.as_str().into()) }
     })
 }
 

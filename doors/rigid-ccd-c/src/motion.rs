@@ -94,6 +94,6 @@ pub unsafe extern "C" fn rccd_motion_between(
             .and_then(|(start, end)| Motion::between(start, end, center, duration))
             .map_err(Failure::input)?;
         // SAFETY: the contract of this function.
-        unsafe { store("the output", out, RccdMotion::from_motion(&motion)) }
+        unsafe { store("out", out, RccdMotion::from_motion(&motion)) }
     })
 }

@@ -70,19 +70,19 @@ impl ChunkSize {
         }
     }
 
-    /// Returns the number of rows of the next chunk, if `left` rows remain.
-    fn next_row_count(&self, left: usize) -> usize {
-        let fraction = left.div_ceil(2 * self.thread_count);
+    /// Returns the number of rows of the next chunk, if `remaining` rows remain.
+    fn next_row_count(&self, remaining: usize) -> usize {
+        let fraction = remaining.div_ceil(2 * self.thread_count);
         self.row_count.load(Ordering::Relaxed).min(fraction)
     }
 
-    /// Adapts the size of later chunks to the time `taken` by a chunk of `rows` rows.
-    pub(crate) fn adapt_chunk_size(&self, rows: usize, taken: Duration) {
+    /// Adapts the size of later chunks to the time that a chunk of `rows` rows took.
+    pub(crate) fn adapt_chunk_size(&self, rows: usize, duration: Duration) {
         // A small chunk at the end of a batch must not reduce the size of later chunks.
-        if taken < TARGET_CHUNK_DURATION / 2 {
+        if duration < TARGET_CHUNK_DURATION / 2 {
             self.row_count
                 .fetch_max(MAX_CHUNK_ROWS.min(2 * rows), Ordering::Relaxed);
-        } else if taken > 2 * TARGET_CHUNK_DURATION {
+        } else if duration > 2 * TARGET_CHUNK_DURATION {
             self.row_count.store((rows / 2).max(1), Ordering::Relaxed);
         }
     }
@@ -134,7 +134,7 @@ impl RowChunks<'_> {
     pub(crate) fn remarks(&self, columns: &Columns) -> Vec<Remark> {
         match &self.source {
             RowSource::Motions { .. } => columns.remarks(),
-            RowSource::Paths(courses, _) => courses.remarks(),
+            RowSource::Paths(movement_rows, _) => movement_rows.remarks(),
         }
     }
 }
@@ -146,8 +146,8 @@ impl Iterator for RowChunks<'_> {
         if self.stop.load(Ordering::Relaxed) || self.error.is_some() {
             return None;
         }
-        let piece = self.source.next(self.chunk_size);
-        piece.unwrap_or_else(|error| {
+        let chunk = self.source.next(self.chunk_size);
+        chunk.unwrap_or_else(|error| {
             self.error = Some(error);
             None
         })
@@ -180,8 +180,8 @@ impl RowSource {
                 *rest = Some((Arc::clone(&batch), end..rows.end));
                 Ok(Some(RowChunk::Motions(batch, rows.start..end)))
             }
-            RowSource::Paths(courses, batch) => {
-                let Some(row) = courses.next().transpose()? else {
+            RowSource::Paths(movement_rows, batch) => {
+                let Some(row) = movement_rows.next().transpose()? else {
                     return Ok(None);
                 };
                 let position = match &row {
