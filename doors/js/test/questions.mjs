@@ -152,7 +152,7 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
       ok(throws(() => ccd.firstContact(ball, ball, { motionA: { angularVelocity: new Euler() } }), /^motionA\.angularVelocity: .*not an object of Euler/) instanceof TypeError, "angles");
       const path = (end) => new ccd.PosePath([0, end], [{}, {}]);
       throws(() => ccd.closestApproach(ball, ball, { motionA: path(1), motionB: path(2) }), /end at different times/);
-      throws(() => ccd.closestApproach(ball, ball, { motionA: path(1), motionB: { angularVelocity: "fast" } }), /motionB\.spin/);
+      throws(() => ccd.closestApproach(ball, ball, { motionA: path(1), motionB: { angularVelocity: "fast" } }), /motionB\.angularVelocity/);
       const freed = path(1);
       freed.free();
       throws(() => ccd.closestApproach(ball, ball, { motionA: path(1), motionB: freed }), /this PosePath was freed/);
