@@ -215,7 +215,7 @@ def test_rows_of_edges_have_the_same_order() -> None:
 
     expected = statuses(start.to_numpy(), end.to_numpy())
     assert statuses(start, end) == statuses(start, end.to_numpy()) == expected
-    with pytest.raises(InputError, match="the same labels in another order"):
+    with pytest.raises(InputError, match="the same labels in different orders"):
         statuses(start, end.iloc[::-1])
     assert statuses(start, end.iloc[::-1].loc[start.index]) == expected
     assert statuses(start, end.set_index(pandas.Index(["a", "b", "c"]))) == expected
