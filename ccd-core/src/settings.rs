@@ -61,7 +61,7 @@ pub struct Settings {
     /// use ccd_core::Settings;
     /// use std::sync::{Arc, atomic::AtomicBool};
     /// let stop = Arc::new(AtomicBool::new(false));
-    /// let settings = Settings { stop: Some(Arc::clone(&stop)), ..Settings::DEFAULT };
+    /// let settings = Settings::DEFAULT.stopped_by(&stop);
     /// ```
     pub stop: Option<Arc<AtomicBool>>,
 }
@@ -78,6 +78,15 @@ impl Settings {
         contact_normals: ContactNormals::Refined,
         stop: None,
     };
+
+    /// Returns the settings with `stop` as the flag that stops queries.
+    #[must_use]
+    pub fn stopped_by(self, stop: &Arc<AtomicBool>) -> Self {
+        Settings {
+            stop: Some(Arc::clone(stop)),
+            ..self
+        }
+    }
 
     /// Checks that the tolerance, the margin and the clearance are in the ranges that queries accept.
     ///

@@ -95,6 +95,16 @@ impl fmt::Display for Limit {
 }
 
 impl Limit {
+    /// All limits.
+    pub const ALL: [Limit; 6] = [
+        Limit::Budget,
+        Limit::Deadline,
+        Limit::Stopped,
+        Limit::Stalled,
+        Limit::OracleGaveUp,
+        Limit::OverlapUndecided,
+    ];
+
     /// Returns a text that says why a query ended and what the caller can do about it.
     ///
     /// ```

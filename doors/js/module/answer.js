@@ -45,16 +45,16 @@ function limitOf(number) {
 
 /** Reads a feature of a body, and returns it as `v7`, `e3-7`, `f12` or `p0`, or null if there is none. */
 function featureOf(numbers, at) {
-  const one = numbers[at + 1];
+  const index = numbers[at + 1];
   switch (numbers[at]) {
     case 0:
-      return `v${one}`;
+      return `v${index}`;
     case 1:
-      return `e${one}-${numbers[at + 2]}`;
+      return `e${index}-${numbers[at + 2]}`;
     case 2:
-      return `f${one}`;
+      return `f${index}`;
     case 3:
-      return `p${one}`;
+      return `p${index}`;
     default:
       return null;
   }

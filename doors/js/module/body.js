@@ -29,7 +29,7 @@ export class Body extends Owned {
 
   static fromFile(name, bytes, options) {
     const { pieces, surface, ...file } = optionsOf(options, "Body.fromFile", { ...FILE_OPTIONS, ...MESH_OPTIONS });
-    return ofMesh(name, bytes, file, (mesh) => new Body(classes().Body.from_read_mesh(mesh, pieces, surface)));
+    return withMesh(name, bytes, file, (mesh) => new Body(classes().Body.from_read_mesh(mesh, pieces, surface)));
   }
 
   static box(halfExtents) {
@@ -73,32 +73,32 @@ export class Body extends Owned {
 /** Reads the triangles of a mesh file, to draw them, or to change them before making a body. */
 export function readMesh(name, bytes, options) {
   const file = optionsOf(options, "readMesh", FILE_OPTIONS);
-  return ofMesh(name, bytes, file, (mesh) => ({ positions: mesh.positions(), indices: mesh.indices(), unit: mesh.unit() ?? null }));
+  return withMesh(name, bytes, file, (mesh) => ({ positions: mesh.positions(), indices: mesh.indices(), unit: mesh.unit() ?? null }));
 }
 
 /** Reads the mesh in a file, calls a function with it, and returns the result. */
-function ofMesh(name, bytes, { scale, unit }, made) {
+function withMesh(name, bytes, { scale, unit }, call) {
   const mesh = classes().Mesh.read(nameOf(name, "name"), bytesOf(bytes, name), scale, unit);
   try {
-    return made(mesh);
+    return call(mesh);
   } finally {
     mesh.free();
   }
 }
 
 /** Checks that an argument is a body, and returns its object in the WebAssembly. */
-export function bodyOf(value, what) {
-  return innerOf(value, Body, what);
+export function bodyOf(value, argumentName) {
+  return innerOf(value, Body, argumentName);
 }
 
-function positiveNumber(value, what) {
-  if (finiteNumber(value, what) <= 0) throw new RangeError(`${what}: ${value} is not positive`);
+function positiveNumber(value, argumentName) {
+  if (finiteNumber(value, argumentName) <= 0) throw new RangeError(`${argumentName}: ${value} is not positive`);
   return value;
 }
 
 function solidOfRevolution(name, radius, halfHeight, excess) {
-  const allowed = excess === undefined ? undefined : finiteNumber(excess, "excess");
-  return new Body(classes().Body[name](finiteNumber(radius, "radius"), finiteNumber(halfHeight, "halfHeight"), allowed));
+  const excessOrDefault = excess === undefined ? undefined : finiteNumber(excess, "excess");
+  return new Body(classes().Body[name](finiteNumber(radius, "radius"), finiteNumber(halfHeight, "halfHeight"), excessOrDefault));
 }
 
 function coordinatesOf(positions) {
@@ -106,24 +106,24 @@ function coordinatesOf(positions) {
     throw new TypeError(`positions: a Float32Array, a Float64Array or an array of numbers is needed, not ${described(positions)}`);
   }
   const numbers = listOfNumbers(positions, "positions");
-  if (numbers.length % 3 !== 0) throw new TypeError(`positions: ${numbers.length} numbers are no whole number of vertices`);
+  if (numbers.length % 3 !== 0) throw new TypeError(`positions: ${numbers.length} numbers are not three for each vertex`);
   return numbers;
 }
 
-/** Returns the indices of a mesh that was given without: every three vertices are a triangle. */
+/** Returns the indices of a mesh without indices: every three vertices are a triangle. */
 function everyVertex(count) {
-  if (count % 3 !== 0) throw new TypeError(`positions: ${count} vertices without indices are no whole number of triangles`);
+  if (count % 3 !== 0) throw new TypeError(`positions: ${count} vertices without indices are not three for each triangle`);
   return Uint32Array.from({ length: count }, (_, k) => k);
 }
 
 function triangleCorners(indices) {
   const length = lengthOf(indices, "indices", "a list of numbers");
-  if (length % 3 !== 0) throw new TypeError(`indices: ${length} numbers are no whole number of triangles`);
+  if (length % 3 !== 0) throw new TypeError(`indices: ${length} numbers are not three for each triangle`);
   if (indices instanceof Uint32Array) return indices;
   const corners = [];
   for (let k = 0; k < length; k += 1) {
     const index = indices[k];
-    if (!Number.isInteger(index) || index < 0 || index > 0xffffffff) throw new TypeError(`indices[${k}]: ${described(index)} is no number of a vertex`);
+    if (!Number.isInteger(index) || index < 0 || index > 0xffffffff) throw new TypeError(`indices[${k}]: ${described(index)} is no index of a vertex`);
     corners.push(index);
   }
   return Uint32Array.from(corners);

@@ -4,7 +4,7 @@ import { KINDS } from "./answer.js";
 import { bodyOf } from "./body.js";
 import { finiteNumber, joined, listOf, nameOf, optionsOf, settingNumber } from "./numbers.js";
 import { innerOf, Owned } from "./owned.js";
-import { NO_OFFSET, poseNumbers } from "./places.js";
+import { IDENTITY, poseNumbers } from "./places.js";
 import { configurationOf, pairsOf, remarksOf, Robot } from "./robot.js";
 import { settingsOf, UnresolvedError } from "./solver.js";
 import { classes } from "./wasm.js";
@@ -44,7 +44,7 @@ export class Cell extends Owned {
   }
 
   attach(name, body, link, options) {
-    const { pose, mayTouch } = optionsOf(options, "Cell.attach", { pose: [poseNumbers, NO_OFFSET], mayTouch: [namesOf, []] });
+    const { pose, mayTouch } = optionsOf(options, "Cell.attach", { pose: [poseNumbers, IDENTITY], mayTouch: [namesOf, []] });
     Owned.inner(this).attach(nameOf(name, "name"), bodyOf(body, "body"), nameOf(link, "link"), pose, mayTouch);
   }
 
@@ -93,8 +93,8 @@ export class Cell extends Owned {
   }
 
   clearanceRanges(path, options) {
-    const { resolution, maxPoseError, ...rest } = optionsOf(options, "Cell.clearanceRanges", RANGE_SETTINGS);
-    const numbers = Owned.inner(this).clearance_ranges(this.#numbersOf(path), path.length, settingsOf(rest, RANGE_CONTACT_SETTINGS), resolution, maxPoseError);
+    const { resolution, maxPoseError, ...contactSettings } = optionsOf(options, "Cell.clearanceRanges", RANGE_SETTINGS);
+    const numbers = Owned.inner(this).clearance_ranges(this.#numbersOf(path), path.length, settingsOf(contactSettings, RANGE_CONTACT_SETTINGS), resolution, maxPoseError);
     return Array.from({ length: numbers.length / 3 }, (_, k) => {
       const [start, end, verdict] = numbers.subarray(3 * k, 3 * k + 3);
       return { start, end, clearance: VERDICTS[verdict] };
@@ -107,12 +107,12 @@ export class Cell extends Owned {
 
   /** Returns the configurations of a path as one array of numbers. */
   #numbersOf(path) {
-    return joined(listOf(path, "path", (value, what) => configurationOf(value, what, this.#joints)));
+    return joined(listOf(path, "path", (value, argumentName) => configurationOf(value, argumentName, this.#joints)));
   }
 }
 
-function namesOf(value, what) {
-  return listOf(value, what, nameOf);
+function namesOf(value, argumentName) {
+  return listOf(value, argumentName, nameOf);
 }
 
 function contactAnswer({ kind, limit, advice, safeUntil, tolerance, nearest }) {
@@ -122,28 +122,16 @@ function contactAnswer({ kind, limit, advice, safeUntil, tolerance, nearest }) {
 
 /** Converts an answer of the engine to a plain object, and frees it. */
 function answerOfPath(answer) {
-  const { kind, safe_until: safeUntil, lower, upper, tolerance } = answer;
-  const found = { kind: KINDS[kind], limit: answer.limit(), advice: answer.advice(), safeUntil, lower, upper, tolerance, nearest: contactOfPath(answer.nearest()) };
+  const { kind, safe_until: safeUntil, lower, upper, tolerance, limit, advice } = answer;
+  const object = { kind: KINDS[kind], limit, advice, safeUntil, lower, upper, tolerance, nearest: contactOfPath(answer.nearest) };
   answer.free();
-  return found;
+  return object;
 }
 
 /** Converts the pair of an answer to a plain object, and frees it. Returns null if there is no pair. */
 function contactOfPath(pair) {
   if (pair === undefined) return null;
-  const { segment, fraction, time, lower, upper } = pair;
-  const found = {
-    segment,
-    fraction,
-    time,
-    a: pair.a(),
-    b: pair.b(),
-    witnessA: [...pair.witness_a()],
-    witnessB: [...pair.witness_b()],
-    distance: [lower, upper],
-    featureA: pair.feature_a() ?? null,
-    featureB: pair.feature_b() ?? null,
-  };
+  const { segment, fraction, time, a, b, lower, upper, witness_a: witnessA, witness_b: witnessB, feature_a: featureA = null, feature_b: featureB = null } = pair;
   pair.free();
-  return found;
+  return { segment, fraction, time, a, b, witnessA: [...witnessA], witnessB: [...witnessB], distance: [lower, upper], featureA, featureB };
 }

@@ -113,9 +113,9 @@ function fixedCodes() {
 /** Reads both prefix codes of a block. A third code encodes their code lengths. */
 function readCodes(input) {
   const [symbols, distances, packed] = [take(input, 5) + 257, take(input, 5) + 1, take(input, 4) + 4];
-  const own = new Array(19).fill(0);
-  for (const symbol of LENGTH_CODE_ORDER.slice(0, packed)) own[symbol] = take(input, 3);
-  const code = codeOf(own);
+  const codeLengths = new Array(19).fill(0);
+  for (const symbol of LENGTH_CODE_ORDER.slice(0, packed)) codeLengths[symbol] = take(input, 3);
+  const code = codeOf(codeLengths);
   const lengths = [];
   while (lengths.length < symbols + distances) {
     const symbol = decode(input, code);

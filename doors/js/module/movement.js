@@ -57,9 +57,9 @@ export class PosePath extends Movement {
 
   constructor(times, poses, options) {
     const { center, angularVelocities } = optionsOf(options, "PosePath", { center: [vectorNumbers, ORIGIN], angularVelocities: [vectorsOf, undefined] });
-    const [at, through] = [listOfNumbers(times, "times"), listOf(poses, "poses", poseNumbers)];
-    if (at.length !== through.length) throw new TypeError(`poses: there are ${through.length}, but ${at.length} times`);
-    super(classes().Movement.pose_path(at, joined(through), center, angularVelocities));
+    const [timeNumbers, poseList] = [listOfNumbers(times, "times"), listOf(poses, "poses", poseNumbers)];
+    if (timeNumbers.length !== poseList.length) throw new TypeError(`poses: there are ${poseList.length}, but ${timeNumbers.length} times`);
+    super(classes().Movement.pose_path(timeNumbers, joined(poseList), center, angularVelocities));
   }
 }
 
@@ -74,6 +74,6 @@ export class LinkTrajectory extends Movement {
   }
 }
 
-function vectorsOf(value, what) {
-  return joined(listOf(value, what, vectorNumbers));
+function vectorsOf(value, argumentName) {
+  return joined(listOf(value, argumentName, vectorNumbers));
 }

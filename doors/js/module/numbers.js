@@ -1,78 +1,78 @@
-// Reads arguments of callers. Nothing is converted: a wrong value is an error that names the argument.
+// Reads the arguments of calls. Nothing is converted: a wrong value is an error that names the argument.
 //
-// A reader takes a value and its name in messages. Classes list their arguments as fields: for each name a reader and
-// a default value. A field without a default is required.
+// A reader is a function of a value and of its name in messages. The fields of an object are listed by name, each as
+// `[reader, default]`. A field without a default is required.
 
 import { described, quoted } from "./words.js";
 
 // --- Objects with fields, and lists
 
 /** Reads the fields of an object, each with its reader. */
-export function fieldsOf(value, what, fields, prefix = "") {
-  checkNames(value, what, Object.keys(fields));
+export function fieldsOf(value, argumentName, fields, prefix = "") {
+  checkNames(value, argumentName, Object.keys(fields));
   const read = {};
-  for (const [name, [reader, ...otherwise]] of Object.entries(fields)) {
-    const given = value[name];
-    read[name] = given === undefined && otherwise.length > 0 ? otherwise[0] : reader(given, prefix + name);
+  for (const [name, [reader, ...defaults]] of Object.entries(fields)) {
+    const field = value[name];
+    read[name] = field === undefined && defaults.length > 0 ? defaults[0] : reader(field, prefix + name);
   }
   return read;
 }
 
-/** Reads options. The whole object may be left out. */
-export function optionsOf(options, owner, fields) {
-  return fieldsOf(options === undefined ? {} : options, `options of ${owner}`, fields);
+/** Reads the options of a function or class. The caller may leave out the whole object. */
+export function optionsOf(options, functionName, fields) {
+  return fieldsOf(options === undefined ? {} : options, `options of ${functionName}`, fields);
 }
 
-/** Refuses a value that is not an object with fields, and unknown fields, which are typing errors. */
-export function checkNames(value, what, known) {
-  if (typeof value !== "object" || value === null) throw new TypeError(`${what}: an object is needed, not ${described(value)}`);
+/** Throws a `TypeError` for a value that is not an object, and for a field that is not in `known`, which is probably misspelt. */
+export function checkNames(value, argumentName, known) {
+  if (typeof value !== "object" || value === null) throw new TypeError(`${argumentName}: an object is needed, not ${described(value)}`);
   for (const name in value) {
-    if (!known.includes(name)) throw unknownName(what, name, known.join(", "));
+    if (!known.includes(name)) throw unknownName(argumentName, name, known.join(", "));
   }
-  // The loop above does not see members of a class. An object of a class must have at least one of the names;
-  // otherwise it is something else, such as a list.
+  // The loop above does not see getters of a class. An object of a class must have at least one of the known names,
+  // because it may be something else, such as a list.
   if (!isPlain(value) && !known.some((name) => name in value)) {
-    throw new TypeError(`${what}: an object with ${known.join(", ")} is needed, not ${described(value)}`);
+    throw new TypeError(`${argumentName}: an object with ${known.join(", ")} is needed, not ${described(value)}`);
   }
 }
 
-/** Settings of Rust and Python that this package does not have. */
-const NO_SETTINGS = { deadline: "a budget ends a question" };
+/** Settings of Rust and Python that this package does not have, each with the advice for it. */
+const UNSUPPORTED_SETTINGS = { deadline: "a budget limits a question instead" };
 
-function unknownName(what, name, known) {
-  return new TypeError(`${what}: there is no ${quoted(name)}; ${NO_SETTINGS[name] ?? `there are ${known}`}`);
+function unknownName(argumentName, name, known) {
+  return new TypeError(`${argumentName}: there is no ${quoted(name)}; ${UNSUPPORTED_SETTINGS[name] ?? `there are ${known}`}`);
 }
 
 /** Returns whether a value is a plain object, of this or another window. */
 export function isPlain(value) {
   if (typeof value !== "object" || value === null) return false;
-  const parent = Object.getPrototypeOf(value);
-  return parent === null || Object.getPrototypeOf(parent) === null;
+  const prototype = Object.getPrototypeOf(value);
+  return prototype === null || Object.getPrototypeOf(prototype) === null;
 }
 
 /** Reads a list, each element with a reader. */
-export function listOf(value, what, reader) {
-  const length = lengthOf(value, what, "a list");
+export function listOf(value, argumentName, reader) {
+  const length = lengthOf(value, argumentName, "a list");
   const read = [];
-  for (let k = 0; k < length; k += 1) read.push(reader(value[k], `${what}[${k}]`));
+  for (let k = 0; k < length; k += 1) read.push(reader(value[k], `${argumentName}[${k}]`));
   return read;
 }
 
 /** Reads a list of exactly `count` elements. */
-export function tupleOf(value, what, count, reader) {
-  const read = listOf(value, what, reader);
-  if (read.length !== count) throw new TypeError(`${what}: ${count} elements are needed, not ${read.length}`);
+export function tupleOf(value, argumentName, count, reader) {
+  const read = listOf(value, argumentName, reader);
+  if (read.length !== count) throw new TypeError(`${argumentName}: ${count} elements are needed, not ${read.length}`);
   return read;
 }
 
 /** Reads numbers into a Float64Array. They may be infinite. */
-export function listOfNumbers(value, what) {
-  const length = lengthOf(value, what, "a list of numbers");
+export function listOfNumbers(value, argumentName) {
+  const length = lengthOf(value, argumentName, "a list of numbers");
   const numbers = typedArrayName(value) === undefined ? [] : value;
   for (let k = 0; k < length; k += 1) {
-    const one = value[k];
-    if (typeof one !== "number" || Number.isNaN(one)) numberOrInfinity(one, `${what}[${k}]`);
-    if (numbers !== value) numbers.push(one);
+    const element = value[k];
+    if (typeof element !== "number" || Number.isNaN(element)) numberOrInfinity(element, `${argumentName}[${k}]`);
+    if (numbers !== value) numbers.push(element);
   }
   return numbers instanceof Float64Array ? numbers : Float64Array.from(numbers);
 }
@@ -83,10 +83,10 @@ export function joined(lists) {
 }
 
 /** Returns the length of a list: an array, a typed array, or an object like one. */
-export function lengthOf(value, what, needed) {
+export function lengthOf(value, argumentName, needed) {
   const length = typeof value === "object" && value !== null ? value.length : undefined;
-  if (!Number.isInteger(length) || length < 0) throw new TypeError(`${what}: ${needed} is needed, not ${described(value)}`);
-  if (typedArrayName(value) !== undefined) checkMemory(value, what);
+  if (!Number.isInteger(length) || length < 0) throw new TypeError(`${argumentName}: ${needed} is needed, not ${described(value)}`);
+  if (typedArrayName(value) !== undefined) checkNotDetached(value, argumentName);
   return length;
 }
 
@@ -98,72 +98,72 @@ export function typedArrayName(value) {
   return nameOfTypedArray.call(value);
 }
 
-/** Refuses an array whose memory was transferred or has shrunk. Its length is 0, so it would look empty. */
-function checkMemory(value, what) {
+/** Throws for a typed array whose memory was transferred or has shrunk. Its length is 0, so it would pass as an empty array. */
+function checkNotDetached(value, argumentName) {
   try {
     typedArray.values.call(value);
   } catch (cause) {
-    throw new TypeError(`${what}: the memory of the array is detached, or ends before it`, { cause });
+    throw new TypeError(`${argumentName}: the memory of the array is detached, or shorter than the array`, { cause });
   }
 }
 
 /** Reads bytes: a Uint8Array or an ArrayBuffer. */
-export function bytesOf(value, what) {
+export function bytesOf(value, argumentName) {
   const isBuffer = Object.prototype.toString.call(value) === "[object ArrayBuffer]";
-  if (!isBuffer && typedArrayName(value) !== "Uint8Array") throw new TypeError(`${what}: bytes in a Uint8Array or an ArrayBuffer are needed, not ${described(value)}`);
+  if (!isBuffer && typedArrayName(value) !== "Uint8Array") throw new TypeError(`${argumentName}: bytes in a Uint8Array or an ArrayBuffer are needed, not ${described(value)}`);
   if (!isBuffer) {
-    checkMemory(value, what);
+    checkNotDetached(value, argumentName);
     return value;
   }
   try {
     return new Uint8Array(value);
   } catch (cause) {
-    throw new TypeError(`${what}: the memory of the bytes is detached`, { cause });
+    throw new TypeError(`${argumentName}: the memory of the bytes is detached`, { cause });
   }
 }
 
 // --- Numbers, names and settings
 
-export function finiteNumber(value, what) {
-  if (!Number.isFinite(number(value, what))) throw new RangeError(`${what}: a finite number is needed, not ${value}`);
+export function finiteNumber(value, argumentName) {
+  if (!Number.isFinite(number(value, argumentName))) throw new RangeError(`${argumentName}: a finite number is needed, not ${value}`);
   return value;
 }
 
-/** Reads a limit, which may be infinite. */
-export function numberOrInfinity(value, what) {
-  if (Number.isNaN(number(value, what))) throw new RangeError(`${what}: a number is needed, not NaN`);
+/** Reads a number that may be infinite, such as the limit of a joint. */
+export function numberOrInfinity(value, argumentName) {
+  if (Number.isNaN(number(value, argumentName))) throw new RangeError(`${argumentName}: a number is needed, not NaN`);
   return value;
 }
 
-function number(value, what) {
-  if (typeof value !== "number") throw new TypeError(`${what}: a number is needed, not ${described(value)}`);
+function number(value, argumentName) {
+  if (typeof value !== "number") throw new TypeError(`${argumentName}: a number is needed, not ${described(value)}`);
   return value;
 }
 
-export function trueOrFalse(value, what) {
-  if (typeof value !== "boolean") throw new TypeError(`${what}: true or false is needed, not ${described(value)}`);
+export function trueOrFalse(value, argumentName) {
+  if (typeof value !== "boolean") throw new TypeError(`${argumentName}: true or false is needed, not ${described(value)}`);
   return value;
 }
 
 /** Reads a name, which must be a string. */
-export function nameOf(value, what) {
-  if (typeof value !== "string") throw new TypeError(`${what}: a string is needed, not ${described(value)}`);
+export function nameOf(value, argumentName) {
+  if (typeof value !== "string") throw new TypeError(`${argumentName}: a string is needed, not ${described(value)}`);
   // Refuses lone surrogates: the WebAssembly would replace them by another character.
-  if (/\p{Surrogate}/u.test(value)) throw new TypeError(`${what}: ${quoted(value)} has half of a character`);
+  if (/\p{Surrogate}/u.test(value)) throw new TypeError(`${argumentName}: ${quoted(value)} has half of a surrogate pair`);
   return value;
 }
 
-/** Makes a reader for one of several known texts. For some wrong texts, `advice` has the right replacement. */
+/** Makes a reader for one of several texts. `advice` has hints for texts that callers may pass by mistake. */
 export function choiceOf(known, advice = {}) {
   const list = `${known.slice(0, -1).map(quoted).join(", ")} or ${quoted(known.at(-1))}`;
-  return (value, what) => {
-    if (known.includes(nameOf(value, what))) return value;
-    const more = Object.hasOwn(advice, value) ? `: ${advice[value]}` : "";
-    throw new TypeError(`${what}: ${quoted(value)} is not ${list}${more}`);
+  return (value, argumentName) => {
+    if (known.includes(nameOf(value, argumentName))) return value;
+    const hint = Object.hasOwn(advice, value) ? `: ${advice[value]}` : "";
+    throw new TypeError(`${argumentName}: ${quoted(value)} is not ${list}${hint}`);
   };
 }
 
-/** The least and the greatest value of each setting, the same as in the WebAssembly. */
+/** The least and the greatest value of each setting. The engine has the same limits; the check is here to name the setting in the message. */
 const SETTINGS = {
   tolerance: [1e-100, 1e12],
   margin: [0, 1e12],

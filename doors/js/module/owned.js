@@ -10,7 +10,7 @@ import { described, nameOfClass } from "./words.js";
 export class Owned {
   #inner;
   /** The engine whose memory holds the object. */
-  #home = engine();
+  #engine = engine();
 
   constructor(inner) {
     this.#inner = inner;
@@ -19,13 +19,13 @@ export class Owned {
   /** Returns the object in the WebAssembly. Throws if it was freed, or if its engine has ended. */
   static inner(owned) {
     if (owned.#inner === null) throw new Error(`this ${nameOfClass(owned)} was freed`);
-    const end = engineEnd(owned.#home);
+    const end = engineEnd(owned.#engine);
     if (end !== null) throw end;
     return owned.#inner;
   }
 
   free() {
-    if (engineEnd(this.#home) === null) this.#inner?.free();
+    if (engineEnd(this.#engine) === null) this.#inner?.free();
     this.#inner = null;
   }
 }
@@ -34,9 +34,9 @@ export class Owned {
 if (Symbol.dispose) Object.defineProperty(Owned.prototype, Symbol.dispose, { value: Owned.prototype.free });
 
 /** Checks that an argument is of a class, and returns its object in the WebAssembly. */
-export function innerOf(value, type, what) {
+export function innerOf(value, type, argumentName) {
   if (value instanceof type) return Owned.inner(value);
   const name = nameOfClass(type.prototype);
   const copy = nameOfClass(value) === name ? " of another copy of this module" : "";
-  throw new TypeError(`${what}: a ${name} is needed, not ${described(value)}${copy}`);
+  throw new TypeError(`${argumentName}: a ${name} is needed, not ${described(value)}${copy}`);
 }

@@ -4,22 +4,22 @@ import { checkNames } from "./numbers.js";
 import { described } from "./words.js";
 
 /** Reads a vector, `[x, y, z]` or `{ x, y, z }`. */
-export function vectorNumbers(value, what) {
+export function vectorNumbers(value, argumentName) {
   const numbers = new Float64Array(3);
-  writeVector(value, numbers, 0, what);
+  writeVector(value, numbers, 0, argumentName);
   return numbers;
 }
 
-/** Writes a vector to `numbers` from index `at` on. Messages name it as `part` of `what`. */
-function writeVector(value, numbers, at, what, part = "") {
-  writeCoordinates(value, 3, numbers, at) || refuse(value, 3, what + part);
+/** Writes a vector to `numbers` from index `at` on. Messages name it by `argumentName` followed by `part`. */
+function writeVector(value, numbers, at, argumentName, part = "") {
+  writeCoordinates(value, 3, numbers, at) || throwVectorError(value, 3, argumentName + part);
 }
 
 /** Writes a quaternion, `[x, y, z, w]` or `{ x, y, z, w }`, to `numbers`. */
-function writeQuaternion(value, numbers, at, what, part = "") {
-  writeCoordinates(value, 4, numbers, at) || refuse(value, 4, what + part);
+function writeQuaternion(value, numbers, at, argumentName, part = "") {
+  writeCoordinates(value, 4, numbers, at) || throwVectorError(value, 4, argumentName + part);
   const isZero = numbers[at] === 0 && numbers[at + 1] === 0 && numbers[at + 2] === 0 && numbers[at + 3] === 0;
-  if (isZero) throw new RangeError(`${what}${part}: a quaternion of length zero names no orientation`);
+  if (isZero) throw new RangeError(`${argumentName}${part}: a quaternion of length zero is no rotation`);
 }
 
 const COORDINATES = ["x", "y", "z", "w"];
@@ -46,25 +46,25 @@ function coordinateOf(value, k) {
 
 /**
  * Returns whether an object has more than `count` coordinates. Objects of a class, as in three.js, may have other
- * properties. They must not have an order of rotations: an object with one holds three angles, not a vector.
+ * properties, except for `order`: an object with an order of rotations is three angles, not a vector.
  */
 function hasMore(value, count) {
   if (Object.getPrototypeOf(value) !== Object.prototype) return typeof value.order === "string" || (count < 4 && value.w !== undefined);
   for (const name in value) {
-    const place = COORDINATES.indexOf(name);
-    if (place < 0 || place >= count) return true;
+    const index = COORDINATES.indexOf(name);
+    if (index < 0 || index >= count) return true;
   }
   return false;
 }
 
-/** Throws the error for a value that is not a vector or quaternion of finite numbers: a `RangeError` if a number is not finite, and otherwise a `TypeError`. */
-function refuse(value, count, what) {
+/** Throws the error for an invalid vector or quaternion: a `RangeError` if only a number is not finite, and otherwise a `TypeError`. */
+function throwVectorError(value, count, argumentName) {
   const names = COORDINATES.slice(0, count).join(", ");
-  const needed = `${what}: [${names}] or { ${names} } of finite numbers is needed, not`;
+  const needed = `${argumentName}: [${names}] or { ${names} } of finite numbers is needed, not`;
   if (typeof value !== "object" || value === null) throw new TypeError(`${needed} ${described(value)}`);
-  const isWhole = isList(value) ? value.length === count : !hasMore(value, count);
+  const hasAllCoordinates = isList(value) ? value.length === count : !hasMore(value, count);
   const parts = Array.from({ length: isList(value) ? Math.min(value.length, 5) : count }, (_, k) => coordinateOf(value, k));
-  if (isWhole && parts.every((part) => typeof part === "number")) throw new RangeError(`${needed} [${parts}]`);
+  if (hasAllCoordinates && parts.every((part) => typeof part === "number")) throw new RangeError(`${needed} [${parts}]`);
   throw new TypeError(`${needed} ${isList(value) ? `[${parts.map(described)}]` : described(value)}`);
 }
 
@@ -82,13 +82,13 @@ const PARTS = {
   center: [writeVector, 13],
   acceleration: [writeVector, MOTION_LENGTH],
 };
-const THROW = Object.keys(PARTS);
-const MOTION = THROW.slice(0, 5);
-const POSE = THROW.slice(0, 2);
+const THROW_PARTS = Object.keys(PARTS);
+const MOTION_PARTS = THROW_PARTS.slice(0, 5);
+const POSE_PARTS = THROW_PARTS.slice(0, 2);
 
-/** Writes a motion at constant velocities. Parts that are left out are 0, or no rotation. */
-export function writeMotion(motion, what, numbers, at) {
-  writeParts(motion, what, MOTION, numbers, at);
+/** Writes a motion at constant velocities. Missing parts are 0, and a missing rotation is the identity. */
+export function writeMotion(motion, argumentName, numbers, at) {
+  writeParts(motion, argumentName, MOTION_PARTS, numbers, at);
 }
 
 /** Writes the motion of a body that is static at the origin. */
@@ -97,41 +97,41 @@ export function writeRest(numbers, at) {
   numbers[at + 6] = 1;
 }
 
-function writeParts(value, what, known, numbers, at) {
+function writeParts(value, argumentName, known, numbers, at) {
   writeRest(numbers, at);
-  checkNames(value, what, known);
+  checkNames(value, argumentName, known);
   for (const name of known) {
     const part = value[name];
     if (part === undefined) continue;
-    const [write, place] = PARTS[name];
-    write(part, numbers, at + place, what, `.${name}`);
+    const [write, offset] = PARTS[name];
+    write(part, numbers, at + offset, argumentName, `.${name}`);
   }
 }
 
-export function motionNumbers(motion, what) {
+export function motionNumbers(motion, argumentName) {
   const numbers = new Float64Array(MOTION_LENGTH);
-  writeMotion(motion, what, numbers, 0);
+  writeMotion(motion, argumentName, numbers, 0);
   return numbers;
 }
 
-/** Returns the numbers of a throw: those of a motion, then the acceleration. */
-export function throwNumbers(motion, what) {
+/** Returns the numbers of a throw: the numbers of a motion, then the acceleration. */
+export function throwNumbers(motion, argumentName) {
   const numbers = new Float64Array(MOTION_LENGTH + 3);
-  writeParts(motion, what, THROW, numbers, 0);
-  if (motion.acceleration === undefined) refuse(undefined, 3, `${what}.acceleration`);
+  writeParts(motion, argumentName, THROW_PARTS, numbers, 0);
+  if (motion.acceleration === undefined) throwVectorError(undefined, 3, `${argumentName}.acceleration`);
   return numbers;
 }
 
 /** Returns the numbers of a pose, `{ position, rotation }`. */
-export function poseNumbers(pose, what) {
+export function poseNumbers(pose, argumentName) {
   const numbers = new Float64Array(MOTION_LENGTH);
-  writeParts(pose, what, POSE, numbers, 0);
+  writeParts(pose, argumentName, POSE_PARTS, numbers, 0);
   return numbers.subarray(0, POSE_LENGTH);
 }
 
 export const ORIGIN = new Float64Array(3);
 /** The numbers of the identity pose. */
-export const NO_OFFSET = poseNumbers({}, "");
+export const IDENTITY = poseNumbers({}, "");
 
 export function poseOfNumbers(numbers) {
   const [px, py, pz, x, y, z, w] = numbers;

@@ -4,15 +4,15 @@ import { Body, bodyOf } from "./body.js";
 import { LinkTrajectory } from "./movement.js";
 import { choiceOf, fieldsOf, finiteNumber, isPlain, listOf, listOfNumbers, nameOf, numberOrInfinity, optionsOf, settingNumber, tupleOf } from "./numbers.js";
 import { Owned } from "./owned.js";
-import { NO_OFFSET, poseNumbers, poseOfNumbers, vectorNumbers } from "./places.js";
+import { IDENTITY, poseNumbers, poseOfNumbers, vectorNumbers } from "./places.js";
 import { classes } from "./wasm.js";
 import { described, quoted } from "./words.js";
 
-const TYPES = choiceOf(["revolute", "prismatic", "fixed"], { continuous: "a continuous joint is a revolute one without limits" });
+const jointType = choiceOf(["revolute", "prismatic", "fixed"], { continuous: "a continuous joint is a revolute one without limits" });
 /** The fields of every joint. */
-const FIXED = { type: [TYPES], name: [nameOf], parent: [nameOf], child: [nameOf], origin: [poseNumbers, NO_OFFSET] };
+const FIXED_FIELDS = { type: [jointType], name: [nameOf], parent: [nameOf], child: [nameOf], origin: [poseNumbers, IDENTITY] };
 /** The fields of a joint with a position. */
-const MOVING = { ...FIXED, axis: [vectorNumbers, [0, 0, 1]], limits: [limitsOf, [-Infinity, Infinity]], mimic: [mimicOf, undefined] };
+const MOVING_FIELDS = { ...FIXED_FIELDS, axis: [vectorNumbers, [0, 0, 1]], limits: [limitsOf, [-Infinity, Infinity]], mimic: [mimicOf, undefined] };
 
 export class Robot extends Owned {
   get [Symbol.toStringTag]() {
@@ -56,9 +56,9 @@ export class Robot extends Owned {
 }
 
 /** Reads a configuration: one position for each of the joints in `names`. */
-export function configurationOf(value, what, names) {
-  const configuration = listOfNumbers(value, what);
-  if (configuration.length !== names.length) throw new TypeError(`${what}: ${configuration.length} positions, but ${names.length} joints: ${names.join(", ")}`);
+export function configurationOf(value, argumentName, names) {
+  const configuration = listOfNumbers(value, argumentName);
+  if (configuration.length !== names.length) throw new TypeError(`${argumentName}: ${configuration.length} positions, but ${names.length} joints: ${names.join(", ")}`);
   return configuration;
 }
 
@@ -67,7 +67,7 @@ function build(parts) {
   const builder = new (classes().RobotBuilder)();
   for (const joint of joints) addJoint(builder, joint);
   for (const { link, body, pose } of bodies) builder.add_body(link, body, pose);
-  for (const [one, other] of mayTouch) builder.may_touch(one, other);
+  for (const [a, b] of mayTouch) builder.may_touch(a, b);
   return builder.build();
 }
 
@@ -76,33 +76,33 @@ function addJoint(builder, { type, name, parent, child, origin, axis = [0, 0, 1]
   if (mimic !== undefined) builder.follow(mimic.joint, mimic.multiplier, mimic.offset);
 }
 
-function jointsOf(value, what) {
-  return listOf(value, what, (joint, place) => {
-    const name = typeof joint === "object" && typeof joint?.name === "string" ? `joint ${quoted(joint.name)}` : place;
-    return fieldsOf(joint, name, joint?.type === "fixed" ? FIXED : MOVING, `${name}: `);
+function jointsOf(value, argumentName) {
+  return listOf(value, argumentName, (joint, elementName) => {
+    const name = typeof joint === "object" && typeof joint?.name === "string" ? `joint ${quoted(joint.name)}` : elementName;
+    return fieldsOf(joint, name, joint?.type === "fixed" ? FIXED_FIELDS : MOVING_FIELDS, `${name}: `);
   });
 }
 
-function limitsOf(value, what) {
-  return tupleOf(value, what, 2, numberOrInfinity);
+function limitsOf(value, argumentName) {
+  return tupleOf(value, argumentName, 2, numberOrInfinity);
 }
 
-function mimicOf(value, what) {
-  return fieldsOf(value, what, { joint: [nameOf], multiplier: [finiteNumber, 1], offset: [finiteNumber, 0] }, `${what}.`);
+function mimicOf(value, argumentName) {
+  return fieldsOf(value, argumentName, { joint: [nameOf], multiplier: [finiteNumber, 1], offset: [finiteNumber, 0] }, `${argumentName}.`);
 }
 
 /** Reads the bodies of all links. Each link has one body, or a list of bodies at poses. */
-function bodiesOf(value, what) {
-  if (!isPlain(value)) throw new TypeError(`${what}: an object with a body for each link is needed, not ${described(value)}`);
-  return Object.entries(value).flatMap(([link, held]) => {
-    const place = `${what}[${quoted(nameOf(link, what))}]`;
-    if (held instanceof Body || typeof held?.length !== "number") return [{ link, body: bodyOf(held, place), pose: NO_OFFSET }];
-    return listOf(held, place, (one, at) => ({ link, ...fieldsOf(one, at, { body: [bodyOf], pose: [poseNumbers, NO_OFFSET] }, `${at}.`) }));
+function bodiesOf(value, argumentName) {
+  if (!isPlain(value)) throw new TypeError(`${argumentName}: an object with a body for each link is needed, not ${described(value)}`);
+  return Object.entries(value).flatMap(([link, bodies]) => {
+    const linkName = `${argumentName}[${quoted(nameOf(link, argumentName))}]`;
+    if (bodies instanceof Body || typeof bodies?.length !== "number") return [{ link, body: bodyOf(bodies, linkName), pose: IDENTITY }];
+    return listOf(bodies, linkName, (body, bodyName) => ({ link, ...fieldsOf(body, bodyName, { body: [bodyOf], pose: [poseNumbers, IDENTITY] }, `${bodyName}.`) }));
   });
 }
 
-function pairsOfNames(value, what) {
-  return listOf(value, what, (pair, place) => tupleOf(pair, place, 2, nameOf));
+function pairsOfNames(value, argumentName) {
+  return listOf(value, argumentName, (pair, pairName) => tupleOf(pair, pairName, 2, nameOf));
 }
 
 export function pairsOf(list) {

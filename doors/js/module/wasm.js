@@ -16,23 +16,23 @@ let loaded = null;
 
 /** The engine has ended, and all objects in its memory are lost. Calling `init` again loads a new engine. */
 export class EngineError extends Error {
-  constructor(reason, what, cause) {
-    super(`${what}: all bodies, movements, robots and cells are lost; \`await init()\` loads the engine anew`, { cause });
+  constructor(reason, event, cause) {
+    super(`${event}: all bodies, movements, robots and cells are lost; \`await init()\` loads a new engine`, { cause });
     this.name = "EngineError";
     this.reason = reason;
   }
 }
 
 export async function init(options) {
-  const { simd: wanted } = optionsOf(options, "init", { simd: [trueOrFalse, undefined] });
+  const { simd: requested } = optionsOf(options, "init", { simd: [trueOrFalse, undefined] });
   // Loads a new engine if the old one has ended.
   if (loaded !== null) engineEnd(loaded);
-  loading ??= load(wanted ?? WebAssembly.validate(VECTOR_MODULE)).catch((error) => {
+  loading ??= load(requested ?? WebAssembly.validate(VECTOR_MODULE)).catch((error) => {
     loading = null;
     throw error;
   });
   const { simd } = await loading;
-  if (wanted !== undefined && wanted !== simd) throw new Error(`simd: the module ${simd ? "with" : "without"} vector instructions is loaded already`);
+  if (requested !== undefined && requested !== simd) throw new Error(`simd: the module ${simd ? "with" : "without"} vector instructions is already loaded`);
   return { simd };
 }
 
@@ -45,13 +45,13 @@ export function classes() {
   return engine().classes;
 }
 
-/** Returns a view of numbers in the memory of the WebAssembly. Growth of the memory detaches it. */
+/** Returns a view of numbers in the memory of the WebAssembly. The view is detached when the memory grows. */
 export function numbersAt(address, count) {
   return new Float64Array(engine().memory.buffer, address, count);
 }
 
 export function engine() {
-  if (loaded === null) throw new Error("rigid-ccd is not loaded: `await init()` comes first");
+  if (loaded === null) throw new Error("rigid-ccd is not loaded: call `await init()` first");
   const end = engineEnd(loaded);
   if (end !== null) throw end;
   return loaded;
@@ -59,33 +59,33 @@ export function engine() {
 
 async function load(simd) {
   if (simd && !WebAssembly.validate(VECTOR_MODULE)) throw new Error("simd: this engine has no WebAssembly with 128-bit vectors");
-  const built = simd ? { code: CODE, bindgen: wasm_bindgen } : await fallback();
-  const module = await WebAssembly.compile(await unpacked(bytesOfBase64(built.code)));
-  const fresh = { classes: null, memory: null, simd, fault: null, failure: null, ended: null };
-  fresh.classes = built.bindgen(guard(fresh), { remark, fault: (text) => (fresh.fault = text) });
-  ({ memory: fresh.memory } = await fresh.classes({ module_or_path: module }));
-  loaded = fresh;
+  const build = simd ? { code: CODE, bindgen: wasm_bindgen } : await fallback();
+  const module = await WebAssembly.compile(await unpacked(bytesOfBase64(build.code)));
+  const started = { classes: null, memory: null, simd, fault: null, failure: null, ended: null };
+  started.classes = build.bindgen(guard(started), { remark, fault: (text) => (started.fault = text) });
+  ({ memory: started.memory } = await started.classes({ module_or_path: module }));
+  loaded = started;
   return loaded;
 }
 
 /** Returns a replacement of the global `WebAssembly`. It wraps each exported function, so that a fault in any call ends the engine. */
-function guard(fresh) {
+function guard(started) {
   const guarded = (call) => (...values) => {
     // The garbage collector may still free objects of an engine that has ended: do nothing.
-    if (engineEnd(fresh) !== null) return undefined;
+    if (engineEnd(started) !== null) return undefined;
     try {
       return call(...values);
     } catch (error) {
       // If the stack is full, the next call may fail. This assignment does not.
-      fresh.failure = error;
-      throw failed(fresh, error);
+      started.failure = error;
+      throw failed(started, error);
     }
   };
   return {
     Instance: WebAssembly.Instance,
     async instantiate(module, imports) {
       const { exports } = await WebAssembly.instantiate(module, imports);
-      const entries = Object.entries(exports).map(([name, one]) => [name, typeof one === "function" ? guarded(one) : one]);
+      const entries = Object.entries(exports).map(([name, value]) => [name, typeof value === "function" ? guarded(value) : value]);
       return { instance: { exports: Object.fromEntries(entries) }, module };
     },
   };
@@ -98,28 +98,28 @@ export function engineEnd(engine) {
 }
 
 /** Ends an engine if it cannot continue after an error. Returns the error to throw. */
-function failed(fresh, error) {
+function failed(started, error) {
   // A stack overflow is an error of the JavaScript engine: a RangeError, or an InternalError.
   if (!(error instanceof WebAssembly.RuntimeError || error instanceof RangeError || error.name === "InternalError")) {
-    fresh.failure = null;
+    started.failure = null;
     return error;
   }
-  const { fault, memory } = fresh;
+  const { fault, memory } = started;
   // If no fault was reported, unreachable code means that memory is exhausted.
   const isMemory = fault === null ? /unreachable/i.test(error.message) : /capacity overflow/.test(fault);
-  const what = isMemory ? `the memory of the WebAssembly is at its end, ${memory.buffer.byteLength} bytes` : `a fault of rigid-ccd: ${fault ?? error.message}`;
-  fresh.ended = new EngineError(isMemory ? "memory" : "fault", what, error);
-  if (loaded === fresh) loading = null;
-  fresh.failure = null;
-  return fresh.ended;
+  const event = isMemory ? `the memory of the WebAssembly is exhausted at ${memory.buffer.byteLength} bytes` : `a fault of rigid-ccd: ${fault ?? error.message}`;
+  started.ended = new EngineError(isMemory ? "memory" : "fault", event, error);
+  if (loaded === started) loading = null;
+  started.failure = null;
+  return started.ended;
 }
 
-const remarked = new Set();
+const shownRemarks = new Set();
 
 /** Writes a remark on a probable mistake to the console, once for each kind. */
 function remark(kind, text) {
-  if (remarked.has(kind)) return;
-  remarked.add(kind);
+  if (shownRemarks.has(kind)) return;
+  shownRemarks.add(kind);
   console.warn(`rigid-ccd: ${text}`);
 }
 

@@ -328,7 +328,7 @@ export default (ccd, { equal, ok, randomNumbers }) => ({
       [() => new ccd.Motion({ rotation: [0, 0, 0, 1, 0] }), /motion\.rotation/],
       [() => new ccd.PosePath([0, 1], [{ velocity: [1, 0, 0] }, {}]), /poses\[0\]: there is no "velocity"/],
       [() => Body.fromMesh([0, 0, 0, 1, 0, 0, 0, 1, 0, 5], [0, 1, 2]), /positions: 10 numbers/],
-      [() => new ccd.Cell(robot({})()).addObstacle("a\ud800", ball), /name: .* half of a character/],
+      [() => new ccd.Cell(robot({})()).addObstacle("a\ud800", ball), /name: .* half of a surrogate pair/],
     ];
     for (const [call, pattern] of refused) {
       let error = null;

@@ -89,7 +89,7 @@ test("at the end of its memory the engine ends with a typed error, and another o
   const mesh = Float64Array.from({ length: 900000 }, (_, k) => ((k * 7919) % 1000) / 1000 + k);
   const error = errorOf(() => module.Body.fromMesh(mesh));
   check.ok(error instanceof module.EngineError && error.reason === "memory", String(error));
-  check.ok(/memory of the WebAssembly is at its end, 4294967296 bytes/.test(error.message), error.message);
+  check.ok(/memory of the WebAssembly is exhausted at 4294967296 bytes/.test(error.message), error.message);
   for (const call of [() => module.firstContact(ball, ball), () => ball.report, () => motion.pose(1), () => module.Body.sphere(1), () => module.memoryUsage()]) {
     check.ok(errorOf(call) === error, `${call}`);
   }
@@ -225,7 +225,7 @@ test("an engine without vectors loads the other module, unless they are asked fo
   WebAssembly.validate = validate;
   check.ok(/^simd: .*128-bit vectors/.test(message), message);
   check.equal([loaded, await old.init()], [{ simd: false }, { simd: false }]);
-  check.ok(/without vector instructions is loaded already/.test(await refused(old.init({ simd: true }))), "what is loaded stays");
+  check.ok(/without vector instructions is already loaded/.test(await refused(old.init({ simd: true }))), "what is loaded stays");
   check.ok(/options of init: there is no "vectors"/.test(await refused(old.init({ vectors: true }))), "options are checked");
 });
 

@@ -120,7 +120,7 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
       throws(() => ccd.firstContact(ball, ball, { tolerence: 1 }), /no "tolerence"/);
       throws(() => ccd.firstContact(ball, ball, { tolerance: -1 }), /tolerance/);
       throws(() => ccd.firstContact(ball, ball, { duration: -1 }), /duration/);
-      throws(() => ccd.firstContact(ball, ball, { deadline: 1 }), /no "deadline"; a budget ends/);
+      throws(() => ccd.firstContact(ball, ball, { deadline: 1 }), /no "deadline"; a budget limits/);
       for (const [name, wrong] of Object.entries({ tolerance: [0, NaN, 1e13, -1], margin: [-1, NaN, Infinity], duration: [-1, NaN, Infinity], budget: [-1, 1.5, NaN] })) {
         for (const value of wrong) {
           const error = throws(() => ccd.firstContact(ball, ball, { [name]: value }), new RegExp(`^${name}: ${value} is`));

@@ -23,7 +23,7 @@ export class EngineError extends Error {
   reason: "memory" | "fault";
 }
 
-/** Returns the size of the memory of the WebAssembly, in bytes. It grows, and never shrinks. */
+/** Returns the size of the memory of the WebAssembly in bytes. The memory never shrinks. */
 export function memoryUsage(): number;
 
 // --- Vectors, poses and bodies
@@ -31,9 +31,9 @@ export function memoryUsage(): number;
 export type Vector = readonly [number, number, number];
 /** A quaternion in the order x, y, z, w, as in three.js. */
 export type Quaternion = readonly [x: number, y: number, z: number, w: number];
-/** A vector as a list, or as an object such as a `Vector3` of three.js. */
+/** A vector that a function takes: a list, or an object such as a `Vector3` of three.js. */
 export type GivenVector = ArrayLike<number> | { readonly x: number; readonly y: number; readonly z: number };
-/** A quaternion as a list, or as an object such as a `Quaternion` of three.js. It need not be normalised, but must not be zero. */
+/** A quaternion that a function takes: a list, or an object such as a `Quaternion` of three.js. It need not be normalised, but must not be zero. */
 export type GivenQuaternion = ArrayLike<number> | { readonly x: number; readonly y: number; readonly z: number; readonly w: number };
 
 export interface Pose {
@@ -41,14 +41,14 @@ export interface Pose {
   rotation: Quaternion;
 }
 
-/** A pose. The defaults are the origin and no rotation. */
+/** A pose that a function takes. The defaults are the origin and no rotation. */
 export interface GivenPose {
   position?: GivenVector;
   rotation?: GivenQuaternion;
 }
 
 declare global {
-  /** Declared as in TypeScript's `esnext.disposable` and in the types of Node, because older libraries do not have it. */
+  /** The same declarations as in TypeScript's `esnext.disposable`, for projects whose `lib` is older. */
   interface SymbolConstructor {
     readonly dispose: unique symbol;
   }
@@ -58,8 +58,8 @@ declare global {
 }
 
 /**
- * An object in the memory of the WebAssembly. Its memory is freed by `free`, at the end of a block with `using`, or
- * by garbage collection.
+ * An object in the memory of the WebAssembly. Its memory is freed by `free`, by garbage collection, or at the end of the
+ * block that declares it with `using`.
  */
 declare abstract class Owned {
   free(): void;
@@ -73,7 +73,7 @@ export interface BodyOptions {
    * far it extends beyond the mesh.
    */
   pieces?: "auto" | "triangles" | "patches" | "hull" | "outer-hull";
-  /** Makes a closed mesh a hollow surface. An open mesh is always a surface; with this option there is no warning about it. */
+  /** Makes a closed mesh a hollow surface. An open mesh is always a surface. With this option an open mesh gives no warning. */
   surface?: boolean;
 }
 
@@ -82,8 +82,8 @@ export interface FileOptions {
   scale?: number;
   /**
    * The unit to convert coordinates to, before `scale`. COLLADA files state their unit, and glTF files are in metres.
-   * Other files are assumed to be in the requested unit already. Without this option coordinates are those of the
-   * file; if its unit is not the metre, the console shows a warning.
+   * Other files are assumed to be in the requested unit already. Without this option coordinates keep the unit
+   * of the file. If that unit is known and not the metre, the console shows a warning.
    */
   unit?: "um" | "mm" | "cm" | "m" | "in" | "ft";
 }
@@ -91,7 +91,7 @@ export interface FileOptions {
 /**
  * A rigid body: a mesh, a box, a ball, a capsule, a cylinder or a cone.
  *
- * A mesh is solid if it is closed and consistently oriented. Otherwise it is a surface. A closed shell inside another
+ * A mesh is solid if it is closed and consistently oriented. Otherwise it is a surface. A closed surface inside another
  * one bounds a cavity, whatever its orientation. A body inside a solid overlaps it; a body inside a surface does not.
  * A mesh that is not closed gives a warning in the console, unless the option `surface` is set.
  */
@@ -130,14 +130,14 @@ export class Body extends Owned {
   readonly pieceCount: number;
   /** A description of the body: the shape and its lengths, or the pieces that represent the mesh, with remarks. */
   readonly report: string;
-  /** How far the body may extend beyond its shape; 0 for exact bodies. Contacts may be early because of it, but never late. */
+  /** The largest distance by which the body may extend beyond its shape; 0 for exact bodies. A contact may be reported early because of it, but never late. */
   readonly excess: number;
 }
 
 /**
- * Reads the triangles of a mesh file, to draw them, or to change them before making a body. Formats are those of
- * `Body.fromFile`. `unit` is the unit of the positions: the requested one, or the one that the file states. It is
- * null if neither is known, or with a `scale`.
+ * Reads the triangles of a mesh file, to draw them, or to change them before making a body. The formats are the same as
+ * for `Body.fromFile`. `unit` is the unit of the positions: the requested unit, or the one that the file states. It is
+ * null if neither is known, or with the option `scale`.
  */
 export function readMesh(
   name: string,
@@ -184,8 +184,9 @@ export class Ballistic extends Movement {
  * A path through poses at increasing times. Between two poses the center moves on a straight line, and the body takes
  * the shortest rotation. The body is at rest before the first pose and after the last one.
  *
- * `angularVelocities` are angular velocities from each pose to the next, for rotations of more than half a turn. An angular
- * velocity may miss the next pose by at most a quarter turn. The rest is added as a second rotation.
+ * `angularVelocities` has an angular velocity from each pose to the next, for rotations of more than half a turn. The
+ * rotation that it gives may differ from the next pose by at most a quarter turn. The difference is added as a second
+ * rotation.
  */
 export class PosePath extends Movement {
   constructor(times: ArrayLike<number>, poses: readonly GivenPose[], options?: { center?: GivenVector; angularVelocities?: readonly GivenVector[] });
@@ -223,7 +224,7 @@ export interface Movements {
 
 export interface Moving extends Movements {
   /**
-   * The end of the question, which starts at time 0. The default is the end of the movements, or 1 if they have none.
+   * The end of the question, which starts at time 0. The default is the end of the movements, or 1 if neither has an end.
    * It is required if the movements end at different times.
    */
   duration?: number;
@@ -235,7 +236,7 @@ export type Feature = `v${number}` | `e${number}-${number}` | `f${number}` | `p$
 /** The bodies stay apart. */
 export interface Free {
   kind: "free";
-  /** Nothing touches until this time: the duration. */
+  /** The duration of the question. Nothing touches until then. */
   safeUntil: number;
   /** A proven lower bound of the distance: margin + half the tolerance. The bodies may be farther apart. */
   provenGap: number;
@@ -255,8 +256,8 @@ interface Touch {
   featureA: Feature;
   featureB: Feature;
   /**
-   * The largest distance beyond the margin at which a contact is reported. It is that of the options, or larger if
-   * rounding allows no less.
+   * The largest distance beyond the margin at which a contact is reported. It is the tolerance of the options, or larger
+   * if rounding requires it.
    */
   tolerance: number;
 }
@@ -271,7 +272,7 @@ export interface Touching extends Touch {
   kind: "touching";
 }
 
-/** The bodies overlap. If only a point inside both bodies is known, the other fields are null. */
+/** The bodies overlap. If only a point inside both bodies is known, the normal, the distance and the features are null. */
 export interface Overlapping extends Pick<Touch, "time" | "witnessA" | "witnessB" | "tolerance"> {
   kind: "overlapping";
   normal: Vector | null;
@@ -304,44 +305,44 @@ export interface LeastDistance extends Nearest {
 
 export interface Limit {
   limit: "budget" | "stalled" | "undecided" | "oracle gave up" | (string & {});
-  /** Advice on how to avoid the limit. */
+  /** What the caller can do to avoid the limit. */
   advice: string;
 }
 
-/** A limit was reached before the answer was known. All fields are proven. */
+/** A limit was reached before the answer was known. The times and bounds are proven. */
 export interface Unresolved extends Limit {
   kind: "unresolved";
   /** No contact happens before this time; 0 for questions about a distance. */
   safeUntil: number;
   /** No contact happens after this time; null unless the question is about the last contact. */
   safeFrom: number | null;
-  /** Bounds of the requested distance; 0 and infinity if none are known. */
+  /** Bounds of the requested distance. They are 0 and infinity if none are known. */
   lower: number;
   upper: number;
-  /** The smallest distance that was measured. */
+  /** The nearest points at the smallest distance that was measured, or null. */
   nearest: Nearest | null;
   tolerance: number;
 }
 
-/** When do they first touch? */
+/** When do two bodies first touch? */
 export function firstContact(a: Body, b: Body, options?: Moving & ContactSettings): Free | Contact | Touching | Overlapping | Unresolved;
-/** Do they touch at all? The contact may not be the first. */
+/** Do two bodies touch at all? The contact may not be the first one. */
 export function anyContact(a: Body, b: Body, options?: Moving & ContactSettings): Free | Contact | Touching | Overlapping | Unresolved;
-/** Do they always stay farther apart than the margin? Throws an `UnresolvedError` if a limit is reached. */
+/** Do two bodies always stay farther apart than the margin? Throws an `UnresolvedError` if a limit is reached. */
 export function isFree(a: Body, b: Body, options?: Moving & ContactSettings): boolean;
-/** When do they first touch, and when last? */
+/** When do two bodies first touch, and when last? */
 export function contactInterval(a: Body, b: Body, options?: Moving & ContactSettings): Free | Interval | Unresolved;
-/** How near do they come, to within the tolerance? There is no option `margin`. */
+/** How near do two bodies come, to within the tolerance? There is no option `margin`. */
 export function closestApproach(a: Body, b: Body, options?: Moving & Settings): LeastDistance | Overlapping | Unresolved;
-/** How far apart are they at time 0? */
+/** How far apart are two bodies at time 0? */
 export function distance(a: Body, b: Body, options?: Movements & Settings): LeastDistance | Overlapping | Unresolved;
 /**
- * Are they always at least `clearance` apart? Throws an `UnresolvedError` if the bounds do not decide, for instance
- * if the distance equals the clearance exactly.
+ * Are two bodies always at least `clearance` apart? Throws an `UnresolvedError` if the bounds of the distance do not
+ * decide, for instance because the distance equals the clearance.
  */
 export function keepsClearance(a: Body, b: Body, clearance: number, options?: Moving & Settings): boolean;
 
-/** A yes-or-no question was not decided. Which bounds are proven depends on the question. */
+/** A yes-or-no question was not decided. Questions about contacts set `safeUntil`, and `keepsClearance` sets the bounds. */
 export class UnresolvedError extends Error implements Limit {
   private constructor();
   limit: Limit["limit"] | "excess" | "tolerance";
@@ -356,8 +357,9 @@ export class UnresolvedError extends Error implements Limit {
 interface JointBetween {
   /** The name of the joint, unique in the robot. */
   name: string;
-  /** The link that the joint is fixed to. `child` is the link that it moves. */
+  /** The link that carries the joint. */
   parent: string;
+  /** The link that the joint moves. */
   child: string;
   /** The pose of the joint in the frame of the parent. */
   origin?: GivenPose;
@@ -367,7 +369,7 @@ export interface FixedJoint extends JointBetween {
   type: "fixed";
 }
 
-/** A joint with a position: an angle for a revolute joint, a length for a prismatic one. */
+/** A joint with a position: an angle for a revolute joint, and a length for a prismatic joint. */
 export interface MovingJoint extends JointBetween {
   /** For a continuous joint of URDF, use a revolute joint without limits. */
   type: "revolute" | "prismatic";
@@ -389,7 +391,7 @@ export interface RobotParts {
   joints?: readonly Joint[];
   /** The bodies that are fixed to each link. */
   bodies?: { readonly [link: string]: Body | readonly { body: Body; pose?: GivenPose }[] };
-  /** Pairs of links that are not checked. Neighbours are never checked either. */
+  /** Pairs of links that are not checked. Links that are connected by a joint are never checked. */
   mayTouch?: readonly (readonly [string, string])[];
 }
 
@@ -406,11 +408,11 @@ export type Configuration = ArrayLike<number>;
 /** A robot or a mechanism: a tree of links and joints, and the pairs of links that are checked. */
 export class Robot extends Owned {
   constructor(parts: RobotParts);
-  /** The names of the joints that have a position of their own in configurations. */
+  /** The names of the independent joints: all except fixed joints and joints that follow another one. */
   readonly jointNames: string[];
   readonly linkNames: string[];
   readonly limits: [low: number, high: number][];
-  /** The pairs of links that are checked. A cell has its own list, and `Cell.setClearance` may add pairs to it. */
+  /** The pairs of links that are checked. A cell copies the list, and `Cell.setClearance` may add pairs to the copy. */
   readonly checkedPairs: [string, string][];
   /** Remarks on probable mistakes, then on what is not checked: links without bodies, and pairs of links by reason. */
   readonly remarks: Remark[];
@@ -422,8 +424,9 @@ export class Robot extends Owned {
 
 /** A pair of items of a cell, at a point of a path. Witness points are in the frame of the robot's base. */
 export interface Pair {
-  /** The index, from 0, of the segment between two configurations. `fraction` is the position within it, from 0 to 1. */
+  /** The index, from 0, of the segment between two configurations. */
   segment: number;
+  /** The position within the segment, from 0 to 1. */
   fraction: number;
   /** The sum of `segment` and `fraction`: 1.5 is the middle of the second segment. */
   time: number;
@@ -434,18 +437,18 @@ export interface Pair {
   witnessA: Vector;
   witnessB: Vector;
   distance: readonly [lower: number, upper: number];
-  /** Null for a convex body, and if one body is inside the other. */
+  /** The feature of `a` at its witness point. Null for a convex body, and if one body is inside the other. */
   featureA: Feature | null;
   featureB: Feature | null;
 }
 
 /**
  * An answer about contacts on a path. If the path is free, `safeUntil` is its number of segments. A contact is within
- * margin + tolerance. The tolerance is that of the options, or larger if rounding of positions does not allow less.
+ * margin + tolerance. The tolerance is the one in the options, or larger if rounding of positions requires it.
  */
 export type PathContact = { kind: "free"; safeUntil: number } | ({ kind: "contact"; tolerance: number } & Pair) | ({ kind: "unresolved"; safeUntil: number } & Limit);
 
-/** Bounds of the least distance on a path, to within the tolerance, and the nearest pair that was measured. */
+/** Bounds of the least distance on a path, to within the tolerance, and the nearest pair found. */
 export type PathDistance = { lower: number; upper: number; tolerance: number; nearest: Pair | null } & ({ kind: "leastDistance" } | ({ kind: "unresolved" } & Limit));
 
 /**
@@ -481,34 +484,34 @@ export class Cell extends Owned {
   detach(name: string): void;
   /**
    * Allows two items to touch, even if they have a clearance. An item is a link, an attached body or an obstacle. The
-   * permission ends when one of them is removed, and by `forbidContact` and `setClearance`.
+   * permission lasts until one of them is removed, or until `forbidContact` or `setClearance` is called for them.
    */
   allowContact(a: string, b: string): void;
-  /** Checks two items again that were allowed to touch, or checks two links that were not checked before. */
+  /** Revokes the permission of two items to touch. For two links that are not checked, adds them to the checked pairs. */
   forbidContact(a: string, b: string): void;
-  /** The remarks on the robot, on obstacles and attached bodies of an unlikely size, and on allowed contacts. */
+  /** The remarks on the robot, on obstacles and attached bodies of an improbable size, and on allowed contacts. */
   readonly remarks: Remark[];
-  /** Sets the padding of a link: the distance, in addition to the margin, that obstacles have to keep from it. */
+  /** Sets the padding of a link: a distance that obstacles must keep from it, in addition to the margin. */
   setPadding(link: string, distance: number): void;
-  /** The pairs of links that are checked: those of the robot, and those added by `setClearance`. */
+  /** The pairs of links that are checked: the pairs of the robot, and pairs that `setClearance` added. */
   readonly checkedPairs: [string, string][];
   /**
    * Sets the distance at which a pair counts as touching. The pair is checked from then on, even if it was not
    * checked or was allowed to touch.
    */
   setClearance(a: string, b: string, distance: number): void;
-  /** What touches first on a path? Nothing touches before. Every question about a cell without a pair to check is an error. */
+  /** What touches first on a path? Nothing touches before the answer's time. All questions throw an `Error` if the cell has no pair to check. */
   firstContact(path: ArrayLike<Configuration>, options?: PathSettings): PathContact;
   /** Is a path free of contact? Throws an `UnresolvedError` if a limit is reached. */
   isFree(path: ArrayLike<Configuration>, options?: PathSettings): boolean;
   /** How near does any pair come on a path? There is no option `margin`. */
   closestApproach(path: ArrayLike<Configuration>, options?: Settings): PathDistance;
   /**
-   * Where on a path do all pairs keep the margin, or their own clearance if one is set?
+   * Where on a path do all pairs keep the margin, or the clearance that is set for the pair?
    *
    * `resolution` is the length of the shortest ranges that are examined, in segments: 1/4096 by default.
-   * `maxPoseError` bounds how far points of links may be from their positions on the path. A closed loop of joints
-   * needs it, because the path is inexact between its configurations.
+   * `maxPoseError` is an upper bound of the distance between a point of a link and its position on the path. Use it for a
+   * closed loop of joints, because the path is inexact between its configurations.
    */
   clearanceRanges(path: ArrayLike<Configuration>, options?: ContactSettings & { resolution?: number; maxPoseError?: number }): PathRange[];
 }

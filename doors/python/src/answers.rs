@@ -27,27 +27,27 @@ pub(crate) fn contact<'py>(py: Python<'py>, hit: &Hit) -> PyResult<Bound<'py, Py
         ))
 }
 
-/// Makes a Python `Distance`, with its comparison to a clearance.
+/// Makes a Python `Distance`. With a clearance, it tells whether the clearance is kept.
 pub(crate) fn make_distance<'py>(
     py: Python<'py>,
-    found: &Outcome,
+    outcome: &Outcome,
     clearance: Option<f64>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let nearest = found
+    let nearest = outcome
         .nearest_contact()
         .map(|(_, contact)| contact.separation);
-    let compared = clearance.map(|_| Status::of(Question::Distance, found, clearance).name());
+    let verdict = clearance.map(|_| Status::of(Question::Distance, outcome, clearance).name());
     static DISTANCE_CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
     DISTANCE_CLASS
         .import(py, "rigid_ccd._answers", "Distance")?
         .call1((
-            found.lower(),
-            found.upper(),
-            found.time(),
-            matches!(found, Outcome::Overlapping { .. }),
+            outcome.lower(),
+            outcome.upper(),
+            outcome.time(),
+            matches!(outcome, Outcome::Overlapping { .. }),
             nearest.map(|nearest| vec3_to_tuple(nearest.witness_a)),
             nearest.map(|nearest| vec3_to_tuple(nearest.witness_b)),
-            compared,
+            verdict,
         ))
 }
 

@@ -13,60 +13,60 @@ pub(crate) struct Elements<T> {
 
 impl Elements<f64> {
     /// Reads numbers from anything that NumPy can convert to an array of numbers.
-    pub(crate) fn read(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Self> {
-        let given = numpy_array(values, what)?;
-        match kind(&given)? {
+    pub(crate) fn read(values: &Bound<'_, PyAny>, argument_name: &str) -> PyResult<Self> {
+        let array = numpy_array(values, argument_name)?;
+        match kind(&array)? {
             'f' | 'i' | 'u' => {}
             // Arrays of objects may contain other kinds of numbers, such as fractions.
-            'O' => check_objects(&given, what)?,
+            'O' => check_objects(&array, argument_name)?,
             _ => {
-                let dtype = given.getattr("dtype")?;
-                let text = format!("{what}: numbers are needed, not {dtype}");
+                let dtype = array.getattr("dtype")?;
+                let text = format!("{argument_name}: numbers are needed, not {dtype}");
                 return Err(input_error(text));
             }
         }
-        elements(&given, "float64", what)
+        elements(&array, "float64", argument_name)
     }
 }
 
 impl Elements<i64> {
     /// Reads whole numbers from anything that NumPy can convert to an array of whole numbers.
-    pub(crate) fn read(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Self> {
-        let given = numpy_array(values, what)?;
-        let is_empty = given.getattr("size")?.extract::<usize>()? == 0;
-        if !is_empty && !matches!(kind(&given)?, 'i' | 'u') {
-            let dtype = given.getattr("dtype")?;
+    pub(crate) fn read(values: &Bound<'_, PyAny>, argument_name: &str) -> PyResult<Self> {
+        let array = numpy_array(values, argument_name)?;
+        let is_empty = array.getattr("size")?.extract::<usize>()? == 0;
+        if !is_empty && !matches!(kind(&array)?, 'i' | 'u') {
+            let dtype = array.getattr("dtype")?;
             return Err(input_error(format!(
-                "{what}: indices are integers, not {dtype}"
+                "{argument_name}: indices are integers, not {dtype}"
             )));
         }
-        elements(&given, "int64", what)
+        elements(&array, "int64", argument_name)
     }
 }
 
 impl<T> Elements<T> {
     /// Returns the rows of an array of shape (n, `N`).
-    fn rows<const N: usize>(&self, what: &str) -> PyResult<&[[T; N]]> {
+    fn rows<const N: usize>(&self, argument_name: &str) -> PyResult<&[[T; N]]> {
         match self.shape[..] {
             [_, columns] if columns == N => Ok(self.values.as_chunks().0),
             ref shape => Err(input_error(format!(
-                "{what}: an array of shape (n, {N}) is needed, not {shape:?}"
+                "{argument_name}: an array of shape (n, {N}) is needed, not {shape:?}"
             ))),
         }
     }
 }
 
-/// Copies the elements of an array that NumPy has made.
+/// Copies the elements of a NumPy array.
 fn elements<T: Element + Copy>(
     array: &Bound<'_, PyAny>,
     dtype: &str,
-    what: &str,
+    argument_name: &str,
 ) -> PyResult<Elements<T>> {
     let py = array.py();
     // Converts the elements to the machine's byte order, at aligned addresses.
     let plain = (py.import("numpy")?)
         .call_method1("require", (array, dtype, ["C", "A"]))
-        .map_err(|error| input_error_from(py, what, error))?;
+        .map_err(|error| input_error_from(py, argument_name, error))?;
     let plain = plain.cast::<PyArrayDyn<T>>()?;
     Ok(Elements {
         values: plain.try_readonly()?.as_array().iter().copied().collect(),
@@ -77,15 +77,17 @@ fn elements<T: Element + Copy>(
 /// Reads rows of `N` numbers.
 pub(crate) fn rows<const N: usize>(
     values: &Bound<'_, PyAny>,
-    what: &str,
+    argument_name: &str,
 ) -> PyResult<Vec<[f64; N]>> {
-    Ok(Elements::<f64>::read(values, what)?.rows(what)?.to_vec())
+    Ok(Elements::<f64>::read(values, argument_name)?
+        .rows(argument_name)?
+        .to_vec())
 }
 
 /// Reads rows of three vertex indices.
 pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
-    let given = Elements::<i64>::read(values, "faces")?;
-    let rows = given.rows::<3>("faces")?.iter().enumerate();
+    let indices = Elements::<i64>::read(values, "faces")?;
+    let rows = indices.rows::<3>("faces")?.iter().enumerate();
     rows.map(|(face, row)| {
         let corner = |index: i64| {
             let refused = |_| input_error(format!("faces: face {face} has the index {index}"));
@@ -99,69 +101,76 @@ pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
 /// Reads exactly `N` finite numbers. The error names the first number that is NaN or infinite.
 pub(crate) fn finite_numbers<const N: usize>(
     values: &Bound<'_, PyAny>,
-    what: &str,
+    argument_name: &str,
 ) -> PyResult<[f64; N]> {
-    let found = numbers(values, what)?;
-    match found.iter().position(|number| !number.is_finite()) {
+    let numbers = numbers(values, argument_name)?;
+    match numbers.iter().position(|number| !number.is_finite()) {
         Some(entry) => {
-            let number = found[entry];
-            let text = format!("{what}: entry {entry} is {number}, no finite number");
+            let number = numbers[entry];
+            let text = format!("{argument_name}: entry {entry} is {number}, not a finite number");
             Err(input_error(text))
         }
-        None => Ok(found),
+        None => Ok(numbers),
     }
 }
 
 /// Reads exactly `N` numbers, which may be NaN or infinite.
-pub(crate) fn numbers<const N: usize>(values: &Bound<'_, PyAny>, what: &str) -> PyResult<[f64; N]> {
-    let found = flat_numbers(values, what)?;
-    let length = found.len();
-    found
-        .try_into()
-        .map_err(|_| input_error(format!("{what}: {N} numbers are needed, not {length}")))
+pub(crate) fn numbers<const N: usize>(
+    values: &Bound<'_, PyAny>,
+    argument_name: &str,
+) -> PyResult<[f64; N]> {
+    let numbers = flat_numbers(values, argument_name)?;
+    let length = numbers.len();
+    numbers.try_into().map_err(|_| {
+        input_error(format!(
+            "{argument_name}: {N} numbers are needed, not {length}"
+        ))
+    })
 }
 
 /// Reads all numbers of an array of any shape as one list.
-pub(crate) fn flat_numbers(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<f64>> {
-    Ok(Elements::<f64>::read(values, what)?.values)
+pub(crate) fn flat_numbers(values: &Bound<'_, PyAny>, argument_name: &str) -> PyResult<Vec<f64>> {
+    Ok(Elements::<f64>::read(values, argument_name)?.values)
 }
 
 /// Reads all whole numbers of an array of any shape as one list.
-fn indices(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<i64>> {
-    Ok(Elements::<i64>::read(values, what)?.values)
+fn indices(values: &Bound<'_, PyAny>, argument_name: &str) -> PyResult<Vec<i64>> {
+    Ok(Elements::<i64>::read(values, argument_name)?.values)
 }
 
 /// Reads row indices. A boolean array with one element for each row stands for the indices of its true elements.
-pub(crate) fn row_indices(rows: &Bound<'_, PyAny>, all: usize) -> PyResult<Vec<i64>> {
-    let given = numpy_array(rows, "rows")?;
-    if kind(&given)? != 'b' {
-        return indices(&given, "rows");
+pub(crate) fn row_indices(rows: &Bound<'_, PyAny>, row_count: usize) -> PyResult<Vec<i64>> {
+    let array = numpy_array(rows, "rows")?;
+    if kind(&array)? != 'b' {
+        return indices(&array, "rows");
     }
-    match shape(&given, "rows")?[..] {
-        [length] if length == all => {
-            let numpy = given.py().import("numpy")?;
-            indices(&numpy.call_method1("flatnonzero", (given,))?, "rows")
+    match shape(&array, "rows")?[..] {
+        [length] if length == row_count => {
+            let numpy = array.py().import("numpy")?;
+            indices(&numpy.call_method1("flatnonzero", (array,))?, "rows")
         }
         ref shape => Err(input_error(format!(
-            "rows: an array of {all} bool is needed, not one of shape {shape:?}"
+            "rows: an array of {row_count} bool is needed, not one of shape {shape:?}"
         ))),
     }
 }
 
 /// Returns the shape of the array that NumPy makes from values.
-pub(crate) fn shape(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<usize>> {
-    numpy_array(values, what)?.getattr("shape")?.extract()
+pub(crate) fn shape(values: &Bound<'_, PyAny>, argument_name: &str) -> PyResult<Vec<usize>> {
+    numpy_array(values, argument_name)?
+        .getattr("shape")?
+        .extract()
 }
 
 /// Converts values to an array. NumPy chooses the element type.
 pub(crate) fn numpy_array<'py>(
     values: &Bound<'py, PyAny>,
-    what: &str,
+    argument_name: &str,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = values.py();
     let numpy = py.import("numpy")?;
     let array = numpy.call_method1("asarray", (values,));
-    let array = array.map_err(|error| input_error_from(py, what, error))?;
+    let array = array.map_err(|error| input_error_from(py, argument_name, error))?;
     let masked_array = numpy.getattr("ma")?.getattr("MaskedArray")?;
     // NumPy would read the values under a mask, so masked arrays are refused.
     visit_parts(values, array.getattr("ndim")?.extract()?, &mut |part, _| {
@@ -169,7 +178,7 @@ pub(crate) fn numpy_array<'py>(
             && part.getattr("mask")?.call_method0("any")?.is_truthy()?;
         if is_masked {
             return Err(input_error(format!(
-                "{what}: some values are masked; fill them, or leave them out"
+                "{argument_name}: some values are masked; fill them, or leave them out"
             )));
         }
         Ok(())
@@ -182,9 +191,9 @@ pub(crate) fn kind(array: &Bound<'_, PyAny>) -> PyResult<char> {
     array.getattr("dtype")?.getattr("kind")?.extract()
 }
 
-/// Calls `visit` with the values, and with each object in their nested lists that is not a number. It visits `depth`
-/// levels, one for each dimension of the array. The second argument of `visit` is the number of levels below the
-/// object.
+/// Calls `visit` with the values, and with each object in their nested lists that is not a number. `depth` is the number
+/// of levels below the values, one for each dimension of the array. The second argument of `visit` is the number of levels
+/// below the object.
 pub(crate) fn visit_parts<'py>(
     values: &Bound<'py, PyAny>,
     depth: usize,
@@ -219,16 +228,18 @@ fn is_nested(values: &Bound<'_, PyAny>) -> PyResult<bool> {
         && values.hasattr("__getitem__")?)
 }
 
-/// Refuses objects that are not numbers but that NumPy would convert to numbers: text, truth values and None.
-fn check_objects(array: &Bound<'_, PyAny>, what: &str) -> PyResult<()> {
-    let truth = array.py().import("numpy")?.getattr("bool")?;
+/// Returns an error for an object that NumPy would convert to a number although it is none: text, a truth value or None.
+fn check_objects(array: &Bound<'_, PyAny>, argument_name: &str) -> PyResult<()> {
+    let numpy_bool = array.py().import("numpy")?.getattr("bool")?;
     for value in array.getattr("flat")?.try_iter()? {
         let value = value?;
         let is_text = value.is_instance_of::<PyString>() || value.is_instance_of::<PyBytes>();
-        let is_truth = value.is_instance_of::<PyBool>() || value.is_instance(&truth)?;
+        let is_truth = value.is_instance_of::<PyBool>() || value.is_instance(&numpy_bool)?;
         if is_text || is_truth || value.is_none() {
             let value = value.repr()?;
-            return Err(input_error(format!("{what}: {value} is no number")));
+            return Err(input_error(format!(
+                "{argument_name}: {value} is not a number"
+            )));
         }
     }
     Ok(())

@@ -26,7 +26,7 @@ use std::path::PathBuf;
 /// Args:
 ///     vertices: array of shape (n, 3), in any unit of length.
 ///     faces: array of shape (m, 3), indices of vertices from 0.
-///     pieces: the convex pieces that represent the mesh: "auto", "triangles", "patches", "hull" for a convex solid, or
+///     pieces: the kind of convex pieces that represent the mesh: "auto", "triangles", "patches", "hull" for a convex solid, or
 ///         "outer-hull", which encloses any mesh.
 ///     surface: whether a closed mesh is a hollow surface instead of a solid.
 ///
@@ -51,18 +51,21 @@ pub(crate) struct PyBody {
     report: String,
 }
 
-/// The data from which pickle makes the body again.
+/// The data from which unpickling makes the body again.
 enum PickleData {
     Shape(ConstructorCall),
     Mesh(Box<StoredBodyContent>),
 }
 
-/// Extracts a `Body` from a Python argument. Errors name it as `what`.
-pub(crate) fn extract_body<'p>(given: &'p Bound<'_, PyAny>, what: &str) -> PyResult<&'p Body> {
+/// Extracts a `Body` from a Python argument. Errors name it as `argument_name`.
+pub(crate) fn extract_body<'p>(
+    argument: &'p Bound<'_, PyAny>,
+    argument_name: &str,
+) -> PyResult<&'p Body> {
     let needed = "a Body, as Body.from_file or Body.from_trimesh makes it,";
-    match given.cast::<PyBody>() {
+    match argument.cast::<PyBody>() {
         Ok(body) => Ok(&body.get().body),
-        Err(_) => Err(wrong_type_error(what, needed, given)),
+        Err(_) => Err(wrong_type_error(argument_name, needed, argument)),
     }
 }
 
@@ -72,8 +75,7 @@ pub(crate) fn warn_of_large_tolerance(
     tolerance: f64,
     calls_up: i32,
 ) -> PyResult<()> {
-    let size =
-        |given: &Bound<'_, PyAny>| given.cast::<PyBody>().map_or(0.0, |body| body.get().size);
+    let size = |body: &Bound<'_, PyAny>| body.cast::<PyBody>().map_or(0.0, |body| body.get().size);
     let remark = Remark::remark_on_tolerance(tolerance, bodies.map(size));
     warn(bodies[0].py(), remark, calls_up)
 }
@@ -94,15 +96,15 @@ impl PyBody {
             .map(DVec3::from)
             .collect();
         let faces = triangles(faces)?;
-        let choice = choice(pieces, surface)?;
+        let choice = piece_choice(pieces, surface)?;
         let bytes = size_of_val(&*faces) as u64;
-        let made = run_or_leave(py, bytes, move || {
+        let result = run_or_leave(py, bytes, move || {
             let mesh = TriangleMesh::new(points, &faces).map_err(input_error)?;
             let model = prepare(&mesh, choice).map_err(input_error)?;
             let remark = Remark::remark_on_mesh(choice, &mesh, &model.report);
             Ok::<_, PyErr>((PyBody::from_model(model)?, remark))
         });
-        let (body, remark) = made??;
+        let (body, remark) = result??;
         warn(py, remark, 1)?;
         Ok(body)
     }
@@ -152,7 +154,7 @@ impl PyBody {
             },
             path,
             part,
-            choice: choice(pieces, surface)?,
+            choice: piece_choice(pieces, surface)?,
         };
         // If the file cannot be read, the reader reports it later.
         let file_bytes = std::fs::metadata(&file.path).map_or(0, |file| file.len());
@@ -233,14 +235,14 @@ impl PyBody {
         PyBody::from_shape(Body::sphere(radius), recipe, report)
     }
 
-    /// Makes a capsule along z. `half_height` is the distance from its middle to the center of either cap.
+    /// Makes a capsule along z. `half_height` is the distance from its center to the center of either cap.
     #[classmethod]
     fn capsule(
         class: &Bound<'_, PyType>,
         #[pyo3(from_py_with = read_number)] radius: f64,
         #[pyo3(from_py_with = read_number)] half_height: f64,
     ) -> PyResult<Self> {
-        let report = round_report("capsule", radius, half_height);
+        let report = solid_report("capsule", radius, half_height);
         let recipe = ConstructorCall::new(class.py(), Some("capsule"), (radius, half_height))?;
         PyBody::from_shape(Body::capsule(radius, half_height), recipe, report)
     }
@@ -261,11 +263,11 @@ impl PyBody {
         #[pyo3(from_py_with = read_number)] half_height: f64,
         #[pyo3(from_py_with = read_optional_number)] excess: Option<f64>,
     ) -> PyResult<Self> {
-        let round = SolidOfRevolution::cylinder(radius, half_height).map_err(input_error)?;
+        let solid = SolidOfRevolution::cylinder(radius, half_height).map_err(input_error)?;
         PyBody::solid_of_revolution(
             class.py(),
             "cylinder",
-            &round,
+            &solid,
             [radius, half_height],
             excess,
         )
@@ -285,8 +287,8 @@ impl PyBody {
         #[pyo3(from_py_with = read_number)] half_height: f64,
         #[pyo3(from_py_with = read_optional_number)] excess: Option<f64>,
     ) -> PyResult<Self> {
-        let round = SolidOfRevolution::cone(radius, half_height).map_err(input_error)?;
-        PyBody::solid_of_revolution(class.py(), "cone", &round, [radius, half_height], excess)
+        let solid = SolidOfRevolution::cone(radius, half_height).map_err(input_error)?;
+        PyBody::solid_of_revolution(class.py(), "cone", &solid, [radius, half_height], excess)
     }
 
     /// Whether the body is solid: another body inside it overlaps it.
@@ -384,16 +386,16 @@ impl PyBody {
     fn solid_of_revolution(
         py: Python<'_>,
         name: &'static str,
-        round: &SolidOfRevolution,
+        solid: &SolidOfRevolution,
         [radius, half_height]: [f64; 2],
         excess: Option<f64>,
     ) -> PyResult<Self> {
-        let enclosure = round.enclosing_polytope(excess.unwrap_or(round.default_excess()));
+        let enclosure = solid.enclosing_polytope(excess.unwrap_or(solid.default_excess()));
         let body = enclosure.and_then(|enclosure| enclosure.body());
         let body = body.map_err(input_error)?;
         let report = format!(
-            "{}, sticking out by up to {:.3e}",
-            round_report(name, radius, half_height),
+            "{}, exceeded by up to {:.3e}",
+            solid_report(name, radius, half_height),
             body.excess()
         );
         let recipe = ConstructorCall::new(py, Some(name), (radius, half_height, excess))?;
@@ -410,16 +412,16 @@ impl PyBody {
     }
 }
 
-fn round_report(name: &str, radius: f64, half_height: f64) -> String {
+fn solid_report(name: &str, radius: f64, half_height: f64) -> String {
     let [radius, half_height] = [radius, half_height].map(Number);
     format!("{name} of radius {radius} and half height {half_height}")
 }
 
-fn choice(name: &str, surface: bool) -> PyResult<PieceChoice> {
+fn piece_choice(name: &str, surface: bool) -> PyResult<PieceChoice> {
     match name {
         "auto" | "triangles" if surface => Ok(PieceChoice::Surface),
         "patches" | "hull" | "outer-hull" if surface => Err(InputError::new_err(format!(
-            "surface: {name} fill a solid; a hollow surface has pieces=\"triangles\""
+            "surface: pieces=\"{name}\" represents a solid; a hollow surface needs pieces=\"triangles\""
         ))),
         "auto" => Ok(PieceChoice::Auto),
         "triangles" => Ok(PieceChoice::Triangles),

@@ -17,9 +17,9 @@ pub(crate) struct BodyFile {
     pub(crate) part: Option<String>,
     pub(crate) adjustments: Adjustments,
     pub(crate) choice: PieceChoice,
-    /// Whether the options allow a prepared body.
+    /// Whether the file may be a prepared body: no option would change it.
     pub(crate) may_be_prepared: bool,
-    /// Whether the options have neither a unit nor a factor.
+    /// Whether coordinates are used as they are in the file: the options have neither a unit nor a factor.
     pub(crate) keeps_numbers: bool,
 }
 
@@ -28,9 +28,9 @@ impl BodyFile {
     pub(crate) fn read(self) -> PyResult<(StoredBodyContent, Vec<Remark>)> {
         let path = self.path;
         // An unreadable file is an OSError. A pipe is refused, because it would block.
-        let there = std::fs::metadata(&path).map_err(|error| file_error(&error, &path))?;
-        if !there.is_file() {
-            return Err(input_error(format!("{}: is no file", path.display())));
+        let metadata = std::fs::metadata(&path).map_err(|error| file_error(&error, &path))?;
+        if !metadata.is_file() {
+            return Err(input_error(format!("{}: is not a file", path.display())));
         }
         std::fs::File::open(&path).map_err(|error| file_error(&error, &path))?;
         if is_prepared_body_path(&path) && self.part.is_none() {
@@ -49,9 +49,12 @@ impl BodyFile {
         let (mesh, unit) = source.read().map_err(input_error)?;
         let prepared = prepare(&mesh, self.choice);
         let model = prepared.map_err(|error| input_error(format!("{source}: {error}")))?;
-        let kept = unit.filter(|_| self.keeps_numbers);
+        let kept_unit = unit.filter(|_| self.keeps_numbers);
         let remarks = Remark::remark_on_mesh(self.choice, &mesh, &model.report).into_iter();
-        Ok((model, remarks.chain(Remark::remark_on_unit(kept)).collect()))
+        Ok((
+            model,
+            remarks.chain(Remark::remark_on_unit(kept_unit)).collect(),
+        ))
     }
 }
 
@@ -75,11 +78,13 @@ pub(crate) fn read_adjustments(
 }
 
 /// Reads the name or the index of a part.
-pub(crate) fn read_part(given: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
-    if given.is_none() || given.is_instance_of::<PyString>() {
-        return given.extract();
+pub(crate) fn read_part(argument: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
+    if argument.is_none() || argument.is_instance_of::<PyString>() {
+        return argument.extract();
     }
-    Ok(Some(whole_number(given, "part", 0..=u64::MAX)?.to_string()))
+    Ok(Some(
+        whole_number(argument, "part", 0..=u64::MAX)?.to_string(),
+    ))
 }
 
 /// Reads a unit of length. Errors name it as `argument`.

@@ -1,6 +1,6 @@
 //! The Python class `Cell`.
 
-use crate::cell_contents::{Contact, PickledContents, UnpickledContents};
+use crate::cell_contents::{CellContents, Contact};
 use crate::cell_remarks::{remark_texts, warn_of, warning_text};
 use crate::cell_state::{CellState, read_body};
 use crate::errors::wrong_type_error;
@@ -44,25 +44,28 @@ pub(crate) struct PyCell {
 impl PyCell {
     #[new]
     fn new(robot: &Bound<'_, PyRobot>) -> PyResult<Self> {
-        let given = robot.get();
-        let cell = Cell::new((*given.robot).clone(), given.pairs.clone());
+        let py_robot = robot.get();
+        let cell = Cell::new((*py_robot.robot).clone(), py_robot.pairs.clone());
         // Warnings about files were shown when the files were read.
-        let told: Vec<_> = given.file_remarks().collect();
+        let shown: Vec<_> = py_robot.file_remarks().collect();
         let remarks = cell.remarks().into_iter();
-        warn_of(robot.py(), remarks.filter(|remark| !told.contains(&remark)))?;
+        warn_of(
+            robot.py(),
+            remarks.filter(|remark| !shown.contains(&remark)),
+        )?;
         Ok(PyCell {
             robot: robot.clone().unbind(),
             state: CellState::new(cell),
         })
     }
 
-    /// The robot, as it was given.
+    /// The robot that the cell was made with.
     #[getter]
     fn robot(&self, py: Python<'_>) -> Py<PyRobot> {
         self.robot.clone_ref(py)
     }
 
-    /// Adds an obstacle at a pose in the frame of the robot's base. Warns if its size is unlikely compared with the
+    /// Adds an obstacle at a pose in the frame of the robot's base. Warns if its size is improbable for this
     /// robot.
     #[pyo3(signature = (name, body, pose = None))]
     fn add_obstacle(
@@ -71,14 +74,15 @@ impl PyCell {
         body: &Bound<'_, PyAny>,
         pose: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
-        let (given, pose) = (read_body(body)?, given_pose_or_identity(pose)?);
-        let remark = self.remark_on_size(name, &given.get().body);
-        warn_of(body.py(), remark)?;
-        self.state.add(name, given, pose)
+        let py = body.py();
+        let (body, pose) = (read_body(body)?, given_pose_or_identity(pose)?);
+        let remark = self.remark_on_size(name, &body.get().body);
+        warn_of(py, remark)?;
+        self.state.add(name, body, pose)
     }
 
     /// Adds a half-space as an obstacle: all points below the plane z = 0 of the frame at a pose. It is represented by
-    /// a large box. A path on which prismatic joints could reach the end of the box raises an InputError.
+    /// a large box. If prismatic joints could reach the end of the box on a path, the question raises an InputError.
     #[pyo3(signature = (name, pose = None))]
     fn add_plane(&self, name: &str, pose: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         self.state.add_plane(name, given_pose_or_identity(pose)?)
@@ -96,7 +100,7 @@ impl PyCell {
     }
 
     /// Attaches a body to a link, at a pose in the link's frame. The body may touch that link, and the items in
-    /// `may_touch`: links, attached bodies and obstacles. Warns if its size is unlikely compared with the robot.
+    /// `may_touch`: links, attached bodies and obstacles. Warns if its size is improbable for this robot.
     #[pyo3(signature = (name, body, link, pose = None, may_touch = Vec::new()))]
     fn attach(
         &self,
@@ -106,10 +110,11 @@ impl PyCell {
         pose: Option<&Bound<'_, PyAny>>,
         #[pyo3(from_py_with = read_names)] may_touch: Vec<String>,
     ) -> PyResult<()> {
-        let (given, pose) = (read_body(body)?, given_pose_or_identity(pose)?);
-        let remark = self.remark_on_size(&name, &given.get().body);
-        warn_of(body.py(), remark)?;
-        self.state.attach((name, given, link, pose, may_touch))
+        let py = body.py();
+        let (body, pose) = (read_body(body)?, given_pose_or_identity(pose)?);
+        let remark = self.remark_on_size(&name, &body.get().body);
+        warn_of(py, remark)?;
+        self.state.attach((name, body, link, pose, may_touch))
     }
 
     /// Detaches a body from its link, and removes it.
@@ -118,24 +123,24 @@ impl PyCell {
     }
 
     /// Allows two items to touch, even if they have a clearance. An item is a link, an attached body or an obstacle.
-    /// The permission ends when one of them is removed, and by `forbid_contact` and `set_clearance`.
+    /// The permission lasts until one of them is removed, or until `forbid_contact` or `set_clearance` is called for them.
     fn allow_contact(&self, a: &str, b: &str) -> PyResult<()> {
         self.state.set_contact(a, b, Contact::Allowed)
     }
 
-    /// Checks two items again that were allowed to touch, or checks two links that were not checked before.
+    /// Revokes the permission of two items to touch. For two links that are not checked, adds them to the checked pairs.
     fn forbid_contact(&self, a: &str, b: &str) -> PyResult<()> {
         self.state.set_contact(a, b, Contact::Forbidden)
     }
 
-    /// Remarks as texts: first on probable mistakes, then on what is not checked. They include the robot's remarks,
-    /// obstacles and attached bodies of an unlikely size, and allowed contacts.
+    /// Remarks as texts: first on probable mistakes, then on links and pairs that are not checked. They include the remarks
+    /// on the robot, on obstacles and attached bodies of an improbable size, and on allowed contacts.
     #[getter]
     fn remarks(&self) -> Vec<String> {
         remark_texts(&self.state.solvers.cell().remarks())
     }
 
-    /// Sets the padding of a link: the distance, in addition to the margin, that obstacles have to keep from it.
+    /// Sets the padding of a link: a distance that obstacles must keep from it, in addition to the margin.
     fn set_padding(
         &self,
         link: &str,
@@ -171,15 +176,15 @@ impl PyCell {
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<bool> {
         let answer = self.ask(py, Question::AnyContact, path, settings)?;
-        check_resolved(py, &answer)?;
+        check_resolved(&answer)?;
         Ok(answer.row.status == Status::Free)
     }
 
     /// Returns the first contact on a path, or None. Nothing touches before it. `start="leave"` is as for `is_free`.
     ///
     /// Raises:
-    ///     UnresolvedError: a limit was reached first. The path is free until `safe_until`, in segments of the path, or as a
-    ///         time on a curve.
+    ///     UnresolvedError: a limit was reached first. The path is free until `safe_until`, a number of segments of the path
+    ///         or a time on the curve.
     #[pyo3(signature = (path, **settings))]
     fn first_contact<'py>(
         &self,
@@ -188,12 +193,12 @@ impl PyCell {
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let answer = self.ask(py, Question::FirstContact, path, settings)?;
-        check_resolved(py, &answer)?;
+        check_resolved(&answer)?;
         contact_object(py, &answer)
     }
 
     /// Finds the first contact on a path of configurations, and proves the answer for each segment. A proof states that
-    /// all checked pairs are farther apart than their margins. It is about triangles only, and does not exclude that a
+    /// all checked pairs are farther apart than their margins. It is about triangles only: it does not prove that no
     /// body is inside another one. Curves have no proofs.
     ///
     /// Args:
@@ -239,15 +244,15 @@ impl PyCell {
         approach_object(py, &answer, clearance)
     }
 
-    /// Divides a path into ranges. In a range all pairs keep their required distance, or some pair certainly does not,
-    /// or neither is verified. The required distance is the setting `margin` plus paddings, or the clearance of a pair.
+    /// Divides a path into ranges. In each range, either all pairs keep their required distance, or some pair certainly does
+    /// not, or neither is proven. The required distance is the setting `margin` plus paddings, or the clearance of a pair.
     ///
     /// Args:
     ///     path: the path, such as `[[low], [high]]` for a mechanism with one joint.
     ///     resolution: the length of the shortest ranges that are examined, in segments of the path or of the curve.
-    ///     max_pose_error: a bound of how far points of links may be from their positions on the path. A closed loop of
-    ///         joints needs it: the path has configurations in which the loop is closed, and between them points differ
-    ///         by the error of the interpolation.
+    ///     max_pose_error: an upper bound of the distance between a point of a link and its position on the path. Use it for
+    ///         a closed loop of joints: the loop is closed in the configurations of the path, and between them the path
+    ///         differs from the mechanism by the error of the interpolation.
     ///
     /// Returns:
     ///     A list of `PathRange`, in the order of the path.
@@ -265,11 +270,11 @@ impl PyCell {
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let settings = read(settings, &names(Question::FirstContact, REPORTING_START))?;
-        let how = RangeSettings {
+        let range_settings = RangeSettings {
             resolution,
             max_pose_error,
         };
-        path_ranges(py, &self.state.solvers, path, how, settings)
+        path_ranges(py, &self.state.solvers, path, range_settings, settings)
     }
 
     /// Answers a question about many edges, on all cores. The first two arguments are arrays of shape (N, joints): the
@@ -302,19 +307,19 @@ impl PyCell {
         progress: Option<&Bound<'_, PyAny>>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyTable> {
-        let given = GivenQuestion {
+        let question = GivenQuestion {
             question,
             threads,
             progress,
             settings,
         };
         let edges = || GivenPaths::read_edges([start, end], &self.robot.get().robot);
-        answer_paths(py, &self.state.solvers, given, edges)
+        answer_paths(py, &self.state.solvers, question, edges)
     }
 
     /// Answers a question about many paths, on all cores. `paths` is an array of shape (N, n, joints), or a list of
-    /// curves. The other arguments and the table are those of `edges`. Times are in segments: 1.5 is the middle of the
-    /// second segment. For curves, times are their own.
+    /// curves. The other arguments and the table are as for `answer_edges`. Times are in segments: 1.5 is the middle of the
+    /// second segment. On a curve, they are times of the curve.
     #[pyo3(signature = (paths, question = "is-free", *, threads = None, progress = None, **settings))]
     fn answer_paths(
         &self,
@@ -325,25 +330,23 @@ impl PyCell {
         progress: Option<&Bound<'_, PyAny>>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyTable> {
-        let given = GivenQuestion {
+        let question = GivenQuestion {
             question,
             threads,
             progress,
             settings,
         };
         let paths = || GivenPaths::read(paths, &self.robot.get().robot);
-        answer_paths(py, &self.state.solvers, given, paths)
+        answer_paths(py, &self.state.solvers, question, paths)
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> (Bound<'py, PyType>, (Py<PyRobot>,), PickledContents) {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<PickledCell<'py>> {
         let (py, cell) = (slf.py(), slf.get());
-        let contents = cell.state.pickled(py);
-        (slf.get_type(), (cell.robot.clone_ref(py),), contents)
+        let contents = cell.state.pickled(py)?;
+        Ok((slf.get_type(), (cell.robot.clone_ref(py),), contents))
     }
 
-    fn __setstate__(&self, state: UnpickledContents<'_>) -> PyResult<()> {
+    fn __setstate__(&self, state: CellContents) -> PyResult<()> {
         self.state.restore(state)
     }
 
@@ -359,6 +362,9 @@ impl PyCell {
         )
     }
 }
+
+/// The class, the robot and the contents of a cell, as `__reduce__` returns them.
+type PickledCell<'py> = (Bound<'py, PyType>, (Py<PyRobot>,), Bound<'py, PyDict>);
 
 impl PyCell {
     fn ask(
@@ -377,14 +383,14 @@ impl PyCell {
     }
 }
 
-fn given_pose_or_identity(given: Option<&Bound<'_, PyAny>>) -> PyResult<GivenPose> {
-    given.map_or(Ok(GivenPose::IDENTITY), |pose| {
+fn given_pose_or_identity(pose: Option<&Bound<'_, PyAny>>) -> PyResult<GivenPose> {
+    pose.map_or(Ok(GivenPose::IDENTITY), |pose| {
         read_given_pose(pose, "pose")
     })
 }
 
 /// Reads a list of names. Refuses a single text.
-fn read_names(given: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
-    let names = given.extract::<Vec<String>>();
-    names.map_err(|_| wrong_type_error("may_touch", "a list of names", given))
+fn read_names(names: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
+    let texts = names.extract::<Vec<String>>();
+    texts.map_err(|_| wrong_type_error("may_touch", "a list of names", names))
 }

@@ -4,16 +4,17 @@ use crate::body::PyBody;
 use crate::motion::GivenPose;
 use pyo3::prelude::*;
 
-/// The arguments of the calls that produce the present state of a cell.
-#[derive(Default)]
+/// The arguments of the calls that produce the present state of a cell. Pickle stores them as a dict.
+#[derive(Default, FromPyObject, IntoPyObjectRef)]
+#[pyo3(from_item_all)]
 pub(crate) struct CellContents {
-    /// A plane has no body.
-    obstacles: Vec<(String, Option<Py<PyBody>>, GivenPose)>,
-    attached: Vec<AttachedBody>,
-    paddings: Vec<(String, f64)>,
-    clearances: Vec<(String, String, f64)>,
+    /// The name, the body and the pose of each obstacle. A plane has no body.
+    pub(crate) obstacles: Vec<(String, Option<Py<PyBody>>, GivenPose)>,
+    pub(crate) attached: Vec<AttachedBody>,
+    pub(crate) paddings: Vec<(String, f64)>,
+    pub(crate) clearances: Vec<(String, String, f64)>,
     /// For each pair, whether the last call allowed or forbade its contact.
-    contacts: Vec<(String, String, bool)>,
+    pub(crate) contacts: Vec<(String, String, bool)>,
 }
 
 /// Whether a contact is allowed.
@@ -25,30 +26,6 @@ pub(crate) enum Contact {
 
 /// The arguments of `Cell.attach`.
 pub(crate) type AttachedBody = (String, Py<PyBody>, String, GivenPose, Vec<String>);
-
-/// The contents as pickle stores them.
-pub(crate) type PickledContents = (
-    Vec<(String, Option<Py<PyBody>>, GivenPose)>,
-    Vec<AttachedBody>,
-    Vec<(String, f64)>,
-    Vec<(String, String, f64)>,
-    Vec<(String, String, bool)>,
-);
-
-/// The contents of a cell as pickle returns them.
-pub(crate) type UnpickledContents<'py> = (
-    Vec<(String, Option<Bound<'py, PyAny>>, Bound<'py, PyAny>)>,
-    Vec<(
-        String,
-        Bound<'py, PyAny>,
-        String,
-        Bound<'py, PyAny>,
-        Vec<String>,
-    )>,
-    Vec<(String, f64)>,
-    Vec<(String, String, f64)>,
-    Vec<(String, String, bool)>,
-);
 
 impl CellContents {
     pub(crate) fn add(&mut self, name: &str, body: Option<Py<PyBody>>, pose: GivenPose) {
@@ -95,34 +72,6 @@ impl CellContents {
             .retain(|(one, other, _)| !is_same([one, other], [a, b]));
         let is_allowed = contact == Contact::Allowed;
         self.contacts.push((a.to_owned(), b.to_owned(), is_allowed));
-    }
-
-    /// Returns the contents for pickle.
-    pub(crate) fn pickled(&self, py: Python<'_>) -> PickledContents {
-        let obstacles = self.obstacles.iter();
-        let attached = self.attached.iter();
-        (
-            obstacles
-                .map(|(name, body, pose)| {
-                    let body = body.as_ref().map(|body| body.clone_ref(py));
-                    (name.clone(), body, *pose)
-                })
-                .collect(),
-            attached
-                .map(|(name, body, link, pose, may_touch)| {
-                    (
-                        name.clone(),
-                        body.clone_ref(py),
-                        link.clone(),
-                        *pose,
-                        may_touch.clone(),
-                    )
-                })
-                .collect(),
-            self.paddings.clone(),
-            self.clearances.clone(),
-            self.contacts.clone(),
-        )
     }
 }
 

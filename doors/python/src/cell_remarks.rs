@@ -17,8 +17,8 @@ pub(crate) fn warning_text(remarks: &[CellRemark]) -> String {
     warnings.map(|warning| format!("; {warning}")).collect()
 }
 
-/// Shows the warnings among remarks in Python. Leaves numbers out of warnings about input, because Python shows equal
-/// texts from one line of code only once.
+/// Shows those remarks that are warnings as Python warnings. Warnings about input have no numbers, because Python shows
+/// each text from one line of code only once.
 pub(crate) fn warn_of(
     py: Python<'_>,
     remarks: impl IntoIterator<Item = CellRemark>,
@@ -34,8 +34,8 @@ pub(crate) fn warn_of(
     Ok(())
 }
 
-/// The configurations that a question is about.
-pub(crate) enum Asked<'a> {
+/// The path or paths that a question is about.
+pub(crate) enum AskedPaths<'a> {
     Path(&'a GivenPath),
     Paths(&'a GivenPaths),
 }
@@ -45,14 +45,17 @@ pub(crate) enum Asked<'a> {
 pub(crate) fn warn_of_question(
     py: Python<'_>,
     cell: &Cell,
-    asked: &Asked<'_>,
+    paths: &AskedPaths<'_>,
     tolerance: f64,
 ) -> PyResult<()> {
-    let of_tolerance = cell.remark_on_tolerance(tolerance);
+    let tolerance_remark = cell.remark_on_tolerance(tolerance);
     let robot = cell.robot();
-    let of_positions = match asked {
-        Asked::Path(path) => path.find_configuration(|at| robot.remark_on_configuration(at)),
-        Asked::Paths(paths) => paths.find_configuration(|at| robot.remark_on_configuration(at)),
-    };
-    warn_of(py, of_tolerance.into_iter().chain(of_positions))
+    let position_remark =
+        match paths {
+            AskedPaths::Path(path) => path
+                .find_configuration(|configuration| robot.remark_on_configuration(configuration)),
+            AskedPaths::Paths(paths) => paths
+                .find_configuration(|configuration| robot.remark_on_configuration(configuration)),
+        };
+    warn_of(py, tolerance_remark.into_iter().chain(position_remark))
 }

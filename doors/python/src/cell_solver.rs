@@ -17,8 +17,8 @@ self_cell::self_cell!(
     }
 );
 
-/// A cell that may change between questions, and its solvers. Neither changes nor questions wait for a running
-/// question.
+/// A cell that may change between questions, and its solvers. A running question delays neither changes nor other
+/// questions.
 pub(crate) struct CellWithCachedSolvers {
     cell: Mutex<Arc<Cell>>,
     /// The solvers of the last question, or `None` while a question uses them.

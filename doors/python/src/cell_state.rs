@@ -1,13 +1,12 @@
 //! The state of a Python cell: the cell with its solvers, and in parallel its contents as Python passed them.
 
 use crate::body::{PyBody, extract_body};
-use crate::cell_contents::{
-    AttachedBody, CellContents, Contact, PickledContents, UnpickledContents,
-};
+use crate::cell_contents::{AttachedBody, CellContents, Contact};
 use crate::cell_solver::CellWithCachedSolvers;
 use crate::errors::input_error;
-use crate::motion::{GivenPose, read_given_pose};
+use crate::motion::GivenPose;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use rigid_ccd_robot::{Cell, RobotError};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -26,22 +25,22 @@ impl CellState {
     }
 
     pub(crate) fn add(&self, name: &str, body: Py<PyBody>, pose: GivenPose) -> PyResult<()> {
-        let (added, place) = (body.get().body.clone(), pose.pose("pose")?);
-        self.change(|cell| cell.add_obstacle(name, added, place))?;
+        let (added_body, placement) = (body.get().body.clone(), pose.pose("pose")?);
+        self.change(|cell| cell.add_obstacle(name, added_body, placement))?;
         self.contents().add(name, Some(body), pose);
         Ok(())
     }
 
     pub(crate) fn add_plane(&self, name: &str, pose: GivenPose) -> PyResult<()> {
-        let place = pose.pose("pose")?;
-        self.change(|cell| cell.add_plane(name, place))?;
+        let placement = pose.pose("pose")?;
+        self.change(|cell| cell.add_plane(name, placement))?;
         self.contents().add(name, None, pose);
         Ok(())
     }
 
     pub(crate) fn move_obstacle(&self, name: &str, pose: GivenPose) -> PyResult<()> {
-        let place = pose.pose("pose")?;
-        self.change(|cell| cell.move_obstacle(name, place))?;
+        let placement = pose.pose("pose")?;
+        self.change(|cell| cell.move_obstacle(name, placement))?;
         self.contents().move_obstacle(name, pose);
         Ok(())
     }
@@ -54,9 +53,9 @@ impl CellState {
 
     pub(crate) fn attach(&self, attached: AttachedBody) -> PyResult<()> {
         let (name, body, link, pose, may_touch) = &attached;
-        let (body, place) = (body.get().body.clone(), pose.pose("pose")?);
-        let others: Vec<&str> = may_touch.iter().map(String::as_str).collect();
-        self.change(|cell| cell.attach(name, body, (link.as_str(), place), &others))?;
+        let (body, placement) = (body.get().body.clone(), pose.pose("pose")?);
+        let may_touch: Vec<&str> = may_touch.iter().map(String::as_str).collect();
+        self.change(|cell| cell.attach(name, body, (link.as_str(), placement), &may_touch))?;
         self.contents().attach(attached);
         Ok(())
     }
@@ -95,31 +94,28 @@ impl CellState {
     }
 
     /// Returns the contents, for pickle.
-    pub(crate) fn pickled(&self, py: Python<'_>) -> PickledContents {
-        self.contents().pickled(py)
+    pub(crate) fn pickled<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.contents().into_pyobject(py)
     }
 
     /// Restores the contents that pickle stored.
-    pub(crate) fn restore(&self, contents: UnpickledContents<'_>) -> PyResult<()> {
-        let (obstacles, attached, paddings, clearances, contacts) = contents;
-        for (name, body, pose) in &obstacles {
-            let pose = read_given_pose(pose, "pose")?;
+    pub(crate) fn restore(&self, contents: CellContents) -> PyResult<()> {
+        for (name, body, pose) in contents.obstacles {
             match body {
-                Some(body) => self.add(name, read_body(body)?, pose)?,
-                None => self.add_plane(name, pose)?,
+                Some(body) => self.add(&name, body, pose)?,
+                None => self.add_plane(&name, pose)?,
             }
         }
-        for (name, body, link, pose, may_touch) in attached {
-            let pose = read_given_pose(&pose, "pose")?;
-            self.attach((name, read_body(&body)?, link, pose, may_touch))?;
+        for attached in contents.attached {
+            self.attach(attached)?;
         }
-        for (link, distance) in &paddings {
+        for (link, distance) in &contents.paddings {
             self.set_padding(link, *distance)?;
         }
-        for (a, b, distance) in &clearances {
+        for (a, b, distance) in &contents.clearances {
             self.set_clearance(a, b, *distance)?;
         }
-        for (a, b, is_allowed) in &contacts {
+        for (a, b, is_allowed) in &contents.contacts {
             let contact = if *is_allowed {
                 Contact::Allowed
             } else {
@@ -140,7 +136,7 @@ impl CellState {
 }
 
 /// Reads an argument that must be a body.
-pub(crate) fn read_body(given: &Bound<'_, PyAny>) -> PyResult<Py<PyBody>> {
-    extract_body(given, "body")?;
-    Ok(given.clone().cast_into::<PyBody>()?.unbind())
+pub(crate) fn read_body(body: &Bound<'_, PyAny>) -> PyResult<Py<PyBody>> {
+    extract_body(body, "body")?;
+    Ok(body.clone().cast_into::<PyBody>()?.unbind())
 }

@@ -10,39 +10,39 @@ use rigid_ccd_robot::Robot;
 /// Reads configurations of a robot from anything that NumPy can convert to an array of numbers. The last index is the
 /// index of the joint.
 ///
-/// NumPy drops labels, so this function checks them. Labels of the last index, at any depth of nested lists, must be
-/// the names of the joints in their order, or default numbers. If they are not names, other indices must not have names
-/// either, because one of them may be meant as the index of joints. Names on the outermost object may end in `_deg`,
-/// for degrees.
+/// NumPy drops labels, so this function checks them. The labels of the last index, at any depth of nested lists, must be
+/// the names of the joints in their order, or default numbers. If they are default numbers, the other indices must not
+/// have names, because one of them could be the index of the joint. Names on the outermost object may end in `_deg`, for
+/// degrees.
 pub(crate) fn read_configurations(
     values: &Bound<'_, PyAny>,
     robot: &Robot,
-    what: &str,
+    argument_name: &str,
 ) -> PyResult<Elements<f64>> {
-    let array = numpy_array(values, what)?;
+    let array = numpy_array(values, argument_name)?;
     let depth = array.getattr("ndim")?.extract()?;
     let mut units = Vec::new();
     visit_parts(values, depth, &mut |part, depth| {
         let labels = Labels::read(part, depth)?;
-        if let Some(found) = labels.units(robot, what)? {
-            if !part.is(values) && found.contains(&AngleUnit::Degree) {
-                return Err(refusal(&labels.last[0], robot, what));
+        if let Some(label_units) = labels.units(robot, argument_name)? {
+            if !part.is(values) && label_units.contains(&AngleUnit::Degree) {
+                return Err(labels_error(&labels.last[0], robot, argument_name));
             }
-            units = found;
+            units = label_units;
         }
         Ok(())
     })?;
-    let mut given = Elements::<f64>::read(&array, what)?;
+    let mut configurations = Elements::<f64>::read(&array, argument_name)?;
     if units.contains(&AngleUnit::Degree) {
-        let positions = given.values.iter_mut().zip(units.iter().cycle());
+        let positions = configurations.values.iter_mut().zip(units.iter().cycle());
         positions.for_each(|(position, unit)| *position = unit.to_radians(*position));
     }
-    Ok(given)
+    Ok(configurations)
 }
 
-/// Refuses two data frames of starts and ends whose rows have the same labels in different orders, because NumPy pairs
-/// rows by position. Other labels are accepted: for instance, one frame may lack the last row of a table, and the other
-/// one its first row.
+/// Returns an error for data frames of starts and ends whose rows have the same labels in different orders, because NumPy
+/// pairs rows by position. Different labels are accepted: for instance, one frame may lack the last row of a table, and
+/// the other one its first row.
 pub(crate) fn check_same_rows([start, end]: [&Bound<'_, PyAny>; 2]) -> PyResult<()> {
     let (Some(starts), Some(ends)) = (labels_of_rows(start)?, labels_of_rows(end)?) else {
         return Ok(());
@@ -55,8 +55,8 @@ pub(crate) fn check_same_rows([start, end]: [&Bound<'_, PyAny>; 2]) -> PyResult<
         return Ok(());
     }
     Err(input_error(
-        "start, end: the rows of the frames have the same labels in another order; end.loc[start.index] has that of the starts, \
-         and reset_index(drop=True) of both pairs rows by their places",
+        "start, end: the rows of the frames have the same labels in different orders; end.loc[start.index] orders the ends like \
+         the starts, and reset_index(drop=True) of both frames pairs rows by position",
     ))
 }
 
@@ -128,11 +128,12 @@ impl<'py> Labels<'py> {
         let dimensions: Vec<Bound<'_, PyAny>> = dimensions.try_iter()?.collect::<PyResult<_>>()?;
         for name in coordinates.try_iter()? {
             let coordinate = coordinates.get_item(name?)?;
-            let of = coordinate.getattr("dims")?.try_iter()?;
-            let of: Vec<Bound<'_, PyAny>> = of.collect::<PyResult<_>>()?;
+            let coordinate_dimensions = coordinate.getattr("dims")?.try_iter()?;
+            let coordinate_dimensions: Vec<Bound<'_, PyAny>> =
+                coordinate_dimensions.collect::<PyResult<_>>()?;
             let values = coordinate.getattr("values")?.call_method0("ravel")?;
             let values = elements(values)?.unwrap_or_default();
-            let is_last = match (&of[..], dimensions.last()) {
+            let is_last = match (&coordinate_dimensions[..], dimensions.last()) {
                 ([only], Some(last)) => only.eq(last)?,
                 _ => false,
             };
@@ -145,19 +146,19 @@ impl<'py> Labels<'py> {
         Ok(())
     }
 
-    /// Returns the unit of each joint, or `None` without names. Refuses labels that are wrong for configurations of the
-    /// robot.
-    fn units(&self, robot: &Robot, what: &str) -> PyResult<Option<Vec<AngleUnit>>> {
+    /// Returns the unit of each joint, or `None` if the labels are no names. Returns an error for names that are not the
+    /// joints of the robot in their order.
+    fn units(&self, robot: &Robot, argument_name: &str) -> PyResult<Option<Vec<AngleUnit>>> {
         let mut units = None;
         for labels in self.last.iter().filter(|labels| !are_default(labels)) {
-            let found = units_of_names(labels, robot, what)?;
-            if found.is_none() || (units.is_some() && units != found) {
-                return Err(refusal(labels, robot, what));
+            let label_units = units_of_names(labels, robot, argument_name)?;
+            if label_units.is_none() || (units.is_some() && units != label_units) {
+                return Err(labels_error(labels, robot, argument_name));
             }
-            units = found;
+            units = label_units;
         }
         if units.is_none() && self.others.iter().any(is_name) {
-            return Err(refusal(&self.others, robot, what));
+            return Err(labels_error(&self.others, robot, argument_name));
         }
         Ok(units)
     }
@@ -167,19 +168,26 @@ impl<'py> Labels<'py> {
 fn units_of_names(
     labels: &[Bound<'_, PyAny>],
     robot: &Robot,
-    what: &str,
+    argument_name: &str,
 ) -> PyResult<Option<Vec<AngleUnit>>> {
     let Ok(names) = labels.iter().map(|label| label.extract()).collect() else {
         return Ok(None);
     };
     let names: Vec<String> = names;
-    let prefix = PREFIXES.iter().find(|(argument, _)| *argument == what);
+    let prefix = PREFIXES
+        .iter()
+        .find(|(argument, _)| *argument == argument_name);
     for prefix in ["", prefix.map_or("", |(_, prefix)| prefix)] {
         let mut units = Vec::new();
         for (number, joint) in robot.independent_joint_names().enumerate() {
-            let found = joint_column(&names, robot, (prefix, joint), AngleUnit::Radian);
-            let found = found.map_err(|error| input_error(format!("{what}: {error}")))?;
-            units.extend(found.filter(|own| own.column == number).map(|own| own.unit));
+            let column = joint_column(&names, robot, (prefix, joint), AngleUnit::Radian);
+            let column =
+                column.map_err(|error| input_error(format!("{argument_name}: {error}")))?;
+            units.extend(
+                column
+                    .filter(|column| column.column == number)
+                    .map(|column| column.unit),
+            );
         }
         if units.len() == names.len() && units.len() == robot.independent_joint_names().len() {
             return Ok(Some(units));
@@ -188,20 +196,20 @@ fn units_of_names(
     Ok(None)
 }
 
-/// Makes the error for labels that are not the names of the joints.
-fn refusal(labels: &[Bound<'_, PyAny>], robot: &Robot, what: &str) -> PyErr {
+/// Makes the error for labels that are not the names of the joints in their order.
+fn labels_error(labels: &[Bound<'_, PyAny>], robot: &Robot, argument_name: &str) -> PyErr {
     let joints: Vec<&str> = robot.independent_joint_names().collect();
     let labels = texts(labels).unwrap_or_else(|_| "no texts".to_owned());
     input_error(format!(
-        "{what}: the labels are {labels}, and the joints of a configuration {}: take robot.joint_names, in this order",
+        "{argument_name}: the labels are {labels}, but the joints are {}: label the columns by robot.joint_names, in this order",
         joints.join(", ")
     ))
 }
 
-/// Returns an attribute. Returns `None` if it is missing, a method or None.
-fn attribute<'py>(of: &Bound<'py, PyAny>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
-    let found = of.getattr_opt(name)?;
-    Ok(found.filter(|found| !found.is_none() && !found.is_callable()))
+/// Returns an attribute, or `None` if the object does not have it, or its value is a method or None.
+fn attribute<'py>(object: &Bound<'py, PyAny>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let value = object.getattr_opt(name)?;
+    Ok(value.filter(|value| !value.is_none() && !value.is_callable()))
 }
 
 /// Returns the elements of a list of labels, or `None` if the object is not a list.

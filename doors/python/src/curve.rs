@@ -70,11 +70,11 @@ impl Polynomials {
             let value = |power| values[(power * segments + segment) * joints + joint];
             lowest_first.map(value).collect()
         };
-        let of_segment = |segment| {
+        let segment_polynomials = |segment| {
             let joints = 0..joints;
             joints.map(|joint| polynomial(segment, joint)).collect()
         };
-        let segments: Vec<Vec<Vec<f64>>> = (0..segments).map(of_segment).collect();
+        let segments: Vec<Vec<Vec<f64>>> = (0..segments).map(segment_polynomials).collect();
         let curve = JointCurve::from_polynomials(&self.times, &segments);
         curve.map_err(|error| input_error(format!("path: {error}")))
     }
@@ -94,47 +94,50 @@ fn curve_of_spline(
     };
     let degree: usize = degree.extract()?;
     let Elements { values, shape } = read_configurations(coefficients, robot, "path.c")?;
-    let [given, joints] = shape[..] else {
+    let [coefficient_count, joints] = shape[..] else {
         return Err(input_error(format!(
             "path: coefficients of shape (coefficients, joints) are needed, not {shape:?}"
         )));
     };
-    let bases = knots.len().saturating_sub(degree + 1).min(given);
-    let of_joint = |joint: usize| {
+    let bases = knots
+        .len()
+        .saturating_sub(degree + 1)
+        .min(coefficient_count);
+    let joint_coefficients = |joint: usize| {
         (0..bases)
             .map(|basis| values[basis * joints + joint])
             .collect()
     };
-    let joints: Vec<Vec<f64>> = (0..joints).map(of_joint).collect();
+    let joints: Vec<Vec<f64>> = (0..joints).map(joint_coefficients).collect();
     let curve = JointCurve::from_b_spline(degree, &knots, &joints);
     curve.map_err(|error| input_error(format!("path: {error}")))
 }
 
-/// The largest accepted difference between the values of the curve and of the given object; relative for values above
-/// 1.
+/// The largest accepted difference between a value of the curve and the value that the Python object returns; relative for
+/// values above 1.
 const MAX_VALUE_DIFFERENCE: f64 = 1e-6;
 
-/// Refuses an object whose coefficients are not those of powers, such as a `BPoly`. Compares two values in each
+/// Returns an error for an object whose coefficients do not belong to powers of time, such as a `BPoly`. Compares two values in each
 /// segment. An object that cannot be called is not checked.
-fn check_values(given: &Bound<'_, PyAny>, curve: &JointCurve, robot: &Robot) -> PyResult<()> {
-    if !given.is_callable() {
+fn check_values(object: &Bound<'_, PyAny>, curve: &JointCurve, robot: &Robot) -> PyResult<()> {
+    if !object.is_callable() {
         return Ok(());
     }
     let inside =
         |span: &[f64]| [0.375, 0.75].map(|fraction| span[0] + fraction * (span[1] - span[0]));
     let times: Vec<f64> = curve.times().windows(2).flat_map(inside).collect();
-    let array = PyArray1::from_slice(given.py(), &times);
-    let values = read_configurations(&given.call1((array,))?, robot, "path(times)")?.values;
+    let array = PyArray1::from_slice(object.py(), &times);
+    let values = read_configurations(&object.call1((array,))?, robot, "path(times)")?.values;
     let joints = values.len() / times.len();
     for (k, time) in times.iter().enumerate() {
-        let (values, own) = (&values[k * joints..][..joints], curve.positions(*time));
+        let (values, curve_values) = (&values[k * joints..][..joints], curve.positions(*time));
         // The comparison is written so that NaN is refused.
-        let is_same = |(value, own): (&f64, &f64)| {
-            (value - own).abs() <= MAX_VALUE_DIFFERENCE * (1.0 + own.abs())
+        let is_same = |(value, curve_value): (&f64, &f64)| {
+            (value - curve_value).abs() <= MAX_VALUE_DIFFERENCE * (1.0 + curve_value.abs())
         };
-        if values.len() != own.len() || !values.iter().zip(&own).all(is_same) {
+        if values.len() != curve_values.len() || !values.iter().zip(&curve_values).all(is_same) {
             return Err(input_error(format!(
-                "path: at {time} its values are {values:?}, and not {own:?} as its coefficients say; convert it to a \
+                "path: at {time} its values are {values:?}, but its coefficients give {curve_values:?}; convert it to a \
                  scipy.interpolate.PPoly, a BPoly by PPoly.from_bernstein_basis"
             )));
         }

@@ -2,70 +2,30 @@
 
 use pyo3::exceptions::{
     PyException, PyKeyboardInterrupt, PyOSError, PyRuntimeError, PyTypeError, PyUserWarning,
-    PyValueError,
 };
 use pyo3::prelude::*;
-use rigid_ccd::{Remark, answer};
+use rigid_ccd::Remark;
+use rigid_ccd::answer::{self, Limit};
 use std::any::Any;
 use std::ffi::CString;
 use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-pyo3::create_exception!(
-    rigid_ccd,
-    InputError,
-    PyValueError,
-    "A number is out of range, or a mesh, a motion or a table is invalid. The message names the element."
-);
-pyo3::create_exception!(
-    rigid_ccd,
-    UnresolvedError,
-    PyRuntimeError,
-    "A limit was reached before the answer was known. For questions about contacts, nothing touches before the attribute `safe_until`. For distances, `lower` and `upper` are proven bounds. For proofs, `results` has the proofs until the limit. Other attributes are None."
-);
-pyo3::create_exception!(
-    rigid_ccd,
-    InterruptError,
-    PyKeyboardInterrupt,
-    "Ctrl-C ended a call. The attribute `results` has the answers so far, such as the first rows of a table. For a single question, `safe_until`, or `lower` and `upper`, are as for `UnresolvedError`. Other attributes are None."
-);
+pyo3::import_exception!(rigid_ccd._errors, InputError);
+pyo3::import_exception!(rigid_ccd._errors, UnresolvedError);
+pyo3::import_exception!(rigid_ccd._errors, InterruptError);
 
-/// Adds the exceptions to the module, and gives their attributes the default value None.
-pub(crate) fn add_exceptions(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    let py = module.py();
-    let classes = [
-        ("InputError", py.get_type::<InputError>(), &["results"][..]),
-        (
-            "UnresolvedError",
-            py.get_type::<UnresolvedError>(),
-            &["results", "safe_until", "lower", "upper"],
-        ),
-        (
-            "InterruptError",
-            py.get_type::<InterruptError>(),
-            &["results", "safe_until", "lower", "upper"],
-        ),
-    ];
-    for (name, class, attributes) in classes {
-        for attribute in attributes {
-            class.setattr(attribute, py.None())?;
-        }
-        module.add(name, class)?;
-    }
-    Ok(())
-}
-
-/// Runs code of libraries that panic on some tables or arrays, and converts a panic to an `InputError`.
+/// Runs code of libraries that panics on some tables or arrays, and converts a panic to an `InputError`.
 ///
 /// Python could not catch a panic with `except Exception`.
 pub(crate) fn run_catching_panics<T>(
-    what: &str,
+    context: &str,
     work: impl FnOnce() -> PyResult<T>,
 ) -> PyResult<T> {
     let done = catch_unwind(AssertUnwindSafe(work));
     done.unwrap_or_else(|panic| {
         Err(input_error(format!(
-            "{what}: {}",
+            "{context}: {}",
             panic_message(panic.as_ref())
         )))
     })
@@ -74,7 +34,7 @@ pub(crate) fn run_catching_panics<T>(
 /// Converts a panic to a `RuntimeError` that asks the user to report it, because no known input causes it.
 pub(crate) fn panic_error(panic: &(dyn Any + Send)) -> PyErr {
     PyRuntimeError::new_err(format!(
-        "a fault of rigid_ccd, please report it: {}",
+        "a defect of rigid_ccd, please report it: {}",
         panic_message(panic)
     ))
 }
@@ -91,9 +51,9 @@ pub(crate) fn input_error(error: impl Display) -> PyErr {
     InputError::new_err(error.to_string())
 }
 
-/// Converts an error of a table to an `InputError`. If Ctrl-C caused it, returns a `KeyboardInterrupt`.
+/// Converts an error of a table to an `InputError`, or to a `KeyboardInterrupt` if Ctrl-C caused it.
 ///
-/// A stream passes the text of an exception, and not the exception, so Ctrl-C is recognised by its text.
+/// A stream passes only the text of an exception, so Ctrl-C is recognised by the text.
 pub(crate) fn input_error_or_interrupt(error: impl Display) -> PyErr {
     let text = error.to_string();
     let last = text.trim_end().lines().next_back().unwrap_or_default();
@@ -105,13 +65,13 @@ pub(crate) fn input_error_or_interrupt(error: impl Display) -> PyErr {
     }
 }
 
-/// Converts an exception to an `InputError` with the exception as its cause. Returns exceptions that end the program,
-/// such as that of Ctrl-C, unchanged.
-pub(crate) fn input_error_from(py: Python<'_>, what: &str, cause: PyErr) -> PyErr {
+/// Converts an exception to an `InputError` with the exception as its cause. Returns an exception that ends the program,
+/// such as `KeyboardInterrupt`, unchanged.
+pub(crate) fn input_error_from(py: Python<'_>, argument_name: &str, cause: PyErr) -> PyErr {
     if !cause.is_instance_of::<PyException>(py) {
         return cause;
     }
-    let error = InputError::new_err(format!("{what}: {}", cause.value(py)));
+    let error = InputError::new_err(format!("{argument_name}: {}", cause.value(py)));
     error.set_cause(py, Some(cause));
     error
 }
@@ -141,23 +101,30 @@ pub(crate) fn unresolved_error(py: Python<'_>, known: &answer::Unresolved) -> Py
     with_attribute(py, error, "safe_until", safe_until)
 }
 
+/// Makes an `UnresolvedError` for a question about contacts on a path, with the time `safe_until` until which the path is
+/// free.
+pub(crate) fn path_limit_error(limit: Limit, safe_until: f64) -> PyErr {
+    let text = format!("a limit was reached ({limit}); free until {safe_until}");
+    let error = UnresolvedError::new_err(text);
+    Python::attach(|py| with_attribute(py, error, "safe_until", safe_until))
+}
+
 /// Makes an `UnresolvedError` for a question about a distance, with the bounds `lower` and `upper`.
 pub(crate) fn unresolved_distance_error(py: Python<'_>, known: &answer::Unresolved) -> PyErr {
     let (advice, lower, upper) = (known.limit.advice(), known.lower, known.upper);
     let error =
         UnresolvedError::new_err(format!("{advice}; the distance is from {lower} to {upper}"));
-    let error = with_attribute(py, error, "lower", lower);
-    with_attribute(py, error, "upper", upper)
+    with_bounds(py, error, [lower, upper])
 }
 
-/// Makes the exception for work that was ended by Ctrl-C, or by an exception of a signal handler or a callback. It has
-/// the results so far.
+/// Makes the exception for work that ended because of Ctrl-C, or of an exception in a signal handler or a callback. Its
+/// attribute `results` has the results so far.
 pub(crate) fn interruption_error<'py>(
     py: Python<'py>,
     cause: PyErr,
     results: impl IntoPyObject<'py>,
 ) -> PyErr {
-    let text = "interrupted; `results` has what was answered by then";
+    let text = "interrupted; `results` has the answers so far";
     with_attribute(
         py,
         interruption(py, cause, text.to_owned()),
@@ -178,7 +145,11 @@ pub(crate) fn time_interruption(py: Python<'_>, cause: PyErr, safe_until: Option
 /// Makes the exception for an interrupted question about a distance.
 pub(crate) fn bounds_interruption(py: Python<'_>, cause: PyErr, [lower, upper]: [f64; 2]) -> PyErr {
     let text = format!("interrupted; the distance is from {lower} to {upper}");
-    let error = with_attribute(py, interruption(py, cause, text), "lower", lower);
+    with_bounds(py, interruption(py, cause, text), [lower, upper])
+}
+
+fn with_bounds(py: Python<'_>, error: PyErr, [lower, upper]: [f64; 2]) -> PyErr {
+    let error = with_attribute(py, error, "lower", lower);
     with_attribute(py, error, "upper", upper)
 }
 
@@ -193,8 +164,9 @@ fn interruption(py: Python<'_>, cause: PyErr, text: String) -> PyErr {
     error
 }
 
-/// Warns the Python program of input that is valid, but probably a mistake. The warning refers to the line of Python
-/// `calls_up` calls up. Python shows equal texts from one line only once, so texts should not contain numbers.
+/// Warns the Python program of input that is valid, but probably a mistake. `calls_up` is the number of calls between this
+/// function and the line of Python that the warning names. Python shows each text from one line only once, so texts should
+/// not contain numbers.
 pub(crate) fn warn(
     py: Python<'_>,
     remarks: impl IntoIterator<Item = Remark>,
@@ -207,13 +179,17 @@ pub(crate) fn warn(
     Ok(())
 }
 
-/// Makes a `TypeError` that names the needed type and the given one.
-pub(crate) fn wrong_type_error(what: &str, needed: &str, found: &Bound<'_, PyAny>) -> PyErr {
-    let kind = found.get_type();
-    let name = kind
+/// Makes a `TypeError` that names the needed type and the type of the argument.
+pub(crate) fn wrong_type_error(
+    argument_name: &str,
+    needed: &str,
+    argument: &Bound<'_, PyAny>,
+) -> PyErr {
+    let class = argument.get_type();
+    let name = class
         .fully_qualified_name()
         .map_or_else(|_| "?".to_owned(), |name| name.to_string());
-    PyTypeError::new_err(format!("{what}: {needed} is needed, not {name}"))
+    PyTypeError::new_err(format!("{argument_name}: {needed} is needed, not {name}"))
 }
 
 /// Sets an attribute of a Python exception, and returns the exception.

@@ -13,20 +13,20 @@ use std::time::Duration;
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// The largest size of a mesh for which work takes at most some hundredths of a second, in bytes.
-const FEW_BYTES: u64 = 1 << 18;
+const MAX_BYTES_ON_THIS_THREAD: u64 = 1 << 18;
 
-/// Runs `work` that has no flag to stop it on a new thread, without the GIL, and returns its result.
+/// Runs `work` on a new thread, without the GIL, and returns its result. For work that cannot be stopped.
 ///
 /// Meanwhile this thread checks for signals. If a signal raises an exception, returns it at once; the work continues to
 /// its end, and its result is dropped. If no thread can be started, or the work panics, returns an exception too.
 ///
-/// If there are few `bytes`, the work runs on this thread, because starting another one would take longer.
+/// If the input has few `bytes`, the work runs on this thread, because starting another one would take longer.
 pub(crate) fn run_or_leave<T: Send + 'static>(
     py: Python<'_>,
     bytes: u64,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> PyResult<T> {
-    if bytes < FEW_BYTES {
+    if bytes < MAX_BYTES_ON_THIS_THREAD {
         return Ok(py.detach(work));
     }
     py.detach(|| {
@@ -55,13 +55,13 @@ fn no_thread_error(error: std::io::Error) -> PyErr {
 
 /// Runs `work` on a new thread, without the GIL, and returns its result.
 ///
-/// Meanwhile this thread checks for signals, and calls `look`. If either raises an exception, sets the flag that ends
-/// the work soon, and returns the exception beside the result. If no thread can be started, or the work panics, returns
-/// only an exception.
+/// Meanwhile this thread checks for signals, and calls `poll`. If either raises an exception, sets the flag that ends the
+/// work soon, and returns the exception with the result. If no thread can be started, or the work panics, returns only an
+/// exception.
 pub(crate) fn run_interruptibly<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(&Arc<AtomicBool>) -> T + Send,
-    mut look: impl FnMut(Python<'_>) -> PyResult<()> + Send,
+    mut poll: impl FnMut(Python<'_>) -> PyResult<()> + Send,
 ) -> PyResult<(T, PyResult<()>)> {
     let stop = Arc::new(AtomicBool::new(false));
     py.detach(|| {
@@ -71,20 +71,20 @@ pub(crate) fn run_interruptibly<T: Send>(
                 let stop = &stop;
                 move || {
                     // Dropped when the work ends, even by a panic.
-                    let _ends = sender;
+                    let _dropped_at_end = sender;
                     work(stop)
                 }
             });
             let worker = worker.map_err(no_thread_error)?;
-            let mut seen = Ok(());
+            let mut interruption = Ok(());
             while let Err(RecvTimeoutError::Timeout) = receiver.recv_timeout(POLL_INTERVAL) {
-                if seen.is_ok() {
-                    seen = Python::attach(|py| py.check_signals().and_then(|()| look(py)));
-                    stop.store(seen.is_err(), Ordering::Relaxed);
+                if interruption.is_ok() {
+                    interruption = Python::attach(|py| py.check_signals().and_then(|()| poll(py)));
+                    stop.store(interruption.is_err(), Ordering::Relaxed);
                 }
             }
             let result = worker.join().map_err(|panic| panic_error(panic.as_ref()))?;
-            Ok((result, seen))
+            Ok((result, interruption))
         })
     })
 }

@@ -56,13 +56,13 @@ impl PyJoint {
         limits: Option<&Bound<'_, PyAny>>,
         mimic: Option<Mimic>,
     ) -> PyResult<Self> {
-        let moving = (origin, axis, limits, mimic);
+        let arguments = (origin, axis, limits, mimic);
         let make = |pose, axis: [f64; 3]| trajectory::Joint::revolute(pose, axis);
         PyJoint::moving_joint(
             class.py(),
             ("revolute", make),
             [name, parent, child],
-            moving,
+            arguments,
         )
     }
 
@@ -80,13 +80,13 @@ impl PyJoint {
         limits: Option<&Bound<'_, PyAny>>,
         mimic: Option<Mimic>,
     ) -> PyResult<Self> {
-        let moving = (origin, axis, limits, mimic);
+        let arguments = (origin, axis, limits, mimic);
         let make = |pose, axis: [f64; 3]| trajectory::Joint::prismatic(pose, axis);
         PyJoint::moving_joint(
             class.py(),
             ("prismatic", make),
             [name, parent, child],
-            moving,
+            arguments,
         )
     }
 

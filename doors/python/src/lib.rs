@@ -49,7 +49,6 @@ fn _rigid_ccd(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<robot::PyRobot>()?;
     module.add_class::<cell::PyCell>()?;
     module.add_class::<table::PyTable>()?;
-    errors::add_exceptions(module)?;
     module.add_function(wrap_pyfunction!(queries::first_contact, module)?)?;
     module.add_function(wrap_pyfunction!(queries::is_free, module)?)?;
     module.add_function(wrap_pyfunction!(queries::closest_approach, module)?)?;

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// The arguments of `Robot.acm`.
+/// The arguments of `Robot.classify_link_contacts`.
 pub(crate) struct LinkContactQuestion<'a, 'py> {
     pub(crate) robot: &'a Robot,
     pub(crate) pairs: &'a LinkPairs,
@@ -36,7 +36,7 @@ impl LinkContactQuestion<'_, '_> {
             check_folder_of(path)?;
         }
         let pair_count = pairs.checked_pairs().count() + pairs.skipped_pairs().count();
-        let given = GivenProgress {
+        let progress = GivenProgress {
             progress,
             total: Some(pair_count),
         };
@@ -46,18 +46,18 @@ impl LinkContactQuestion<'_, '_> {
                 deadline: None,
                 stop: Some(Arc::clone(stop)),
             };
-            robot.classify_link_contacts(&settings, |now, _| {
-                decided.fetch_max(now, Ordering::Relaxed);
+            robot.classify_link_contacts(&settings, |decided_count, _| {
+                decided.fetch_max(decided_count, Ordering::Relaxed);
             })
         };
-        let (meetings, seen) = run_with_progress(py, given, work)?;
-        let meetings = meetings.map_err(input_error)?;
-        if let (Some(path), Ok(())) = (srdf, &seen) {
-            let text = robot.to_srdf(pairs, &meetings);
+        let (classes, interruption) = run_with_progress(py, progress, work)?;
+        let classes = classes.map_err(input_error)?;
+        if let (Some(path), Ok(())) = (srdf, &interruption) {
+            let text = robot.to_srdf(pairs, &classes);
             std::fs::write(&path, text).map_err(|error| file_error(&error, &path))?;
         }
-        let batch = link_contact_table(robot, &meetings).map_err(input_error)?;
-        results_or_interruption(py, PyTable { batch }, seen)
+        let batch = link_contact_table(robot, &classes).map_err(input_error)?;
+        results_or_interruption(py, PyTable { batch }, interruption)
     }
 }
 
@@ -73,22 +73,22 @@ fn check_folder_of(path: &Path) -> PyResult<()> {
 }
 
 /// Reads the number of boxes to examine for a pair.
-pub(crate) fn read_max_boxes(given: &Bound<'_, PyAny>) -> PyResult<usize> {
-    whole_number(given, "max_boxes", 0..=usize::MAX)
+pub(crate) fn read_max_boxes(argument: &Bound<'_, PyAny>) -> PyResult<usize> {
+    whole_number(argument, "max_boxes", 0..=usize::MAX)
 }
 
 /// Makes a table with a row for each pair of links.
 fn link_contact_table(
     robot: &Robot,
-    meetings: &[([usize; 2], LinkContactClass)],
+    classes: &[([usize; 2], LinkContactClass)],
 ) -> Result<RecordBatch, ArrowError> {
     let names = |side: usize| -> ArrayRef {
-        let links = meetings.iter().map(|(links, _)| links[side]);
+        let links = classes.iter().map(|(links, _)| links[side]);
         let names = links.map(|link| Some(robot.links()[link].name.as_str()));
         Arc::new(names.collect::<StringArray>())
     };
-    let evidence = meetings.iter().map(|(_, meeting)| {
-        Some(match meeting {
+    let evidence = classes.iter().map(|(_, class)| {
+        Some(match class {
             LinkContactClass::Never => "never",
             LinkContactClass::Always => "always",
             LinkContactClass::AlwaysAsEnclosed => "always-as-enclosed",
@@ -96,17 +96,17 @@ fn link_contact_table(
             LinkContactClass::Undecided { .. } => "undecided",
         })
     });
-    let numbers = |number: usize| -> ArrayRef {
-        let found = meetings.iter().map(|(_, meeting)| match meeting {
+    let numbers = |index: usize| -> ArrayRef {
+        let column = classes.iter().map(|(_, class)| match class {
             LinkContactClass::Undecided {
                 proven_apart_fraction,
                 undecided_fraction,
                 least_distance,
                 ..
-            } => Some([*proven_apart_fraction, *undecided_fraction, *least_distance][number]),
+            } => Some([*proven_apart_fraction, *undecided_fraction, *least_distance][index]),
             _ => None,
         });
-        Arc::new(found.collect::<Float64Array>())
+        Arc::new(column.collect::<Float64Array>())
     };
     let columns: [(&str, ArrayRef, bool); 6] = [
         ("link_a", names(0), false),

@@ -5,7 +5,7 @@ use crate::errors::{input_error, warn};
 use crate::numbers::read_number;
 use crate::pickle::{ConstructorCall, Reduced};
 use pyo3::prelude::*;
-use pyo3::types::{PyTuple, PyType};
+use pyo3::types::PyType;
 use rigid_ccd::glam::{DMat3, DQuat, DVec3};
 use rigid_ccd::{Motion, Pose, Remark};
 
@@ -13,7 +13,7 @@ use rigid_ccd::{Motion, Pose, Remark};
 /// this size. The engine uses the rotation of the unit quaternion nearest to the matrix.
 const ORTHONORMALITY_TOLERANCE: f64 = 1e-5;
 
-/// A motion: a pose at time 0, a constant velocity of a center, and a constant angular velocity about it.
+/// A motion: a pose at time 0, a constant velocity of the center of rotation, and a constant angular velocity about it.
 ///
 /// Args:
 ///     position: the position of the body's origin at time 0, three numbers.
@@ -46,16 +46,16 @@ impl PyMotion {
         angular_velocity: Option<&Bound<'_, PyAny>>,
         center: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let given = |values: Option<&Bound<'_, PyAny>>, what| match values {
-            Some(values) => finite_numbers(values, what),
+        let vector = |values: Option<&Bound<'_, PyAny>>, argument_name| match values {
+            Some(values) => finite_numbers(values, argument_name),
             None => Ok([0.0; 3]),
         };
-        let turned = rotation.map_or(Ok(DQuat::IDENTITY), read_rotation)?;
-        let start = GivenPose(given(position, "position")?, turned);
-        let velocity = given(velocity, "velocity")?;
+        let rotation = rotation.map_or(Ok(DQuat::IDENTITY.to_array()), read_rotation)?;
+        let start = GivenPose(vector(position, "position")?, rotation);
+        let velocity = vector(velocity, "velocity")?;
         let (angular_velocity, center) = (
-            given(angular_velocity, "angular_velocity")?,
-            given(center, "center")?,
+            vector(angular_velocity, "angular_velocity")?,
+            vector(center, "center")?,
         );
         PyMotion::from_velocities(py, start, velocity, angular_velocity, center)
     }
@@ -87,11 +87,11 @@ impl PyMotion {
         );
         let center = center.map_or(Ok([0.0; 3]), |center| finite_numbers(center, "center"))?;
         let motion = Motion::between(start.pose("start")?, end.pose("end")?, center, duration);
-        let parts = (start, end, duration, center);
+        let arguments = (start, end, duration, center);
         Ok(PyMotion {
             motion: motion.map_err(input_error)?,
             end: Some(duration),
-            constructor_call: ConstructorCall::new(class.py(), Some("between"), parts)?,
+            constructor_call: ConstructorCall::new(class.py(), Some("between"), arguments)?,
         })
     }
 
@@ -129,58 +129,48 @@ impl PyMotion {
         center: [f64; 3],
     ) -> PyResult<Self> {
         let motion = Motion::about(start.pose("pose")?, velocity, angular_velocity, center);
-        let GivenPose(place, turned) = start;
-        let parts = (place, turned.to_array(), velocity, angular_velocity, center);
+        let GivenPose(position, rotation) = start;
+        let arguments = (position, rotation, velocity, angular_velocity, center);
         Ok(PyMotion {
             motion: motion.map_err(input_error)?,
             end: None,
-            constructor_call: ConstructorCall::new(py, None, parts)?,
+            constructor_call: ConstructorCall::new(py, None, arguments)?,
         })
     }
 }
 
-/// A position and an orientation as the caller passed them. They are kept, because normalisation may change even a
-/// normalised quaternion.
-#[derive(Clone, Copy)]
-pub(crate) struct GivenPose([f64; 3], DQuat);
+/// A position and a quaternion as the caller passed them, for pickle: normalisation may change even a normalised
+/// quaternion. In Python it is a tuple of both.
+#[derive(Clone, Copy, IntoPyObject, IntoPyObjectRef)]
+pub(crate) struct GivenPose([f64; 3], [f64; 4]);
 
 impl GivenPose {
-    pub(crate) const IDENTITY: GivenPose = GivenPose([0.0; 3], DQuat::IDENTITY);
+    pub(crate) const IDENTITY: GivenPose = GivenPose([0.0; 3], [0.0, 0.0, 0.0, 1.0]);
 
-    /// Returns the normalised pose. Errors name it as `what`.
-    pub(crate) fn pose(&self, what: &str) -> PyResult<Pose> {
-        Pose::new(self.0, self.1).map_err(|error| input_error(format!("{what}: {error}")))
+    /// Returns the normalised pose. Errors name it as `argument_name`.
+    pub(crate) fn pose(&self, argument_name: &str) -> PyResult<Pose> {
+        Pose::new(self.0, self.1).map_err(|error| input_error(format!("{argument_name}: {error}")))
     }
 }
 
-/// Converts a pose to a tuple of a position and a quaternion in Python.
-impl<'py> IntoPyObject<'py> for GivenPose {
-    type Target = PyTuple;
-    type Output = Bound<'py, PyTuple>;
+impl<'py> FromPyObject<'_, 'py> for GivenPose {
     type Error = PyErr;
 
-    fn into_pyobject(self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        (self.0, self.1.to_array()).into_pyobject(py)
+    fn extract(pose: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        read_given_pose(&pose, "pose")
     }
 }
 
 /// Converts a pose to a matrix of shape (4, 4).
 pub(crate) fn pose_matrix<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, numpy::PyArray2<f64>> {
-    let (turned, place) = (DMat3::from_quat(pose.rotation()), pose.translation());
-    let row = |k: usize| {
-        vec![
-            turned.x_axis[k],
-            turned.y_axis[k],
-            turned.z_axis[k],
-            place[k],
-        ]
-    };
+    let (rotation, position) = (DMat3::from_quat(pose.rotation()), pose.translation());
+    let row = |k: usize| [rotation.row(k).to_array().as_slice(), &[position[k]]].concat();
     let matrix = [row(0), row(1), row(2), vec![0.0, 0.0, 0.0, 1.0]];
     numpy::PyArray2::from_vec2(py, &matrix).unwrap_or_else(|_| unreachable!("rows of four numbers"))
 }
 
 /// Reads a rotation from a quaternion, a matrix or a SciPy rotation.
-fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
+fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<[f64; 4]> {
     if value.hasattr("as_matrix")? {
         return rotation_from_matrix(&value.call_method0("as_matrix")?, "rotation");
     }
@@ -190,7 +180,7 @@ fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
             let is_zero = quaternion == [0.0; 4];
             let remark = Remark::remark_on_quaternion(quaternion).filter(|_| !is_zero);
             warn(value.py(), remark, 1)?;
-            Ok(DQuat::from_array(quaternion))
+            Ok(quaternion)
         }
         [3, 3] => rotation_from_matrix(value, "rotation"),
         _ => Err(input_error(
@@ -199,22 +189,22 @@ fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
     }
 }
 
-fn rotation_from_matrix(value: &Bound<'_, PyAny>, what: &str) -> PyResult<DQuat> {
-    quaternion_from_rows(finite_numbers(value, what)?, what)
+fn rotation_from_matrix(value: &Bound<'_, PyAny>, argument_name: &str) -> PyResult<[f64; 4]> {
+    quaternion_from_rows(finite_numbers(value, argument_name)?, argument_name)
 }
 
-fn quaternion_from_rows(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
+fn quaternion_from_rows(rows: [f64; 9], argument_name: &str) -> PyResult<[f64; 4]> {
     let matrix = DMat3::from_cols_array(&rows).transpose();
-    let off = (matrix * matrix.transpose() - DMat3::IDENTITY).to_cols_array();
-    let error = off.iter().map(|entry| entry.abs());
+    let deviation = (matrix * matrix.transpose() - DMat3::IDENTITY).to_cols_array();
+    let error = deviation.iter().map(|entry| entry.abs());
     // The comparison is written so that NaN is refused.
     let is_rotation =
         error.clone().all(|error| error <= ORTHONORMALITY_TOLERANCE) && matrix.determinant() > 0.0;
     if is_rotation {
-        Ok(DQuat::from_mat3(&matrix))
+        Ok(DQuat::from_mat3(&matrix).to_array())
     } else {
         Err(input_error(format!(
-            "{what}: the matrix is no rotation: its product with its transpose is off by {:.1e}, and its determinant \
+            "{argument_name}: the matrix is no rotation: its product with its transpose is off by {:.1e}, and its determinant \
          is {:.1}",
             error.max_by(f64::total_cmp).unwrap_or_default(),
             matrix.determinant()
@@ -222,33 +212,36 @@ fn quaternion_from_rows(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
     }
 }
 
-/// Reads a pose from any of its accepted forms. Errors name it as `what`.
-pub(crate) fn read_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<Pose> {
-    read_given_pose(value, what)?.pose(what)
+/// Reads a pose from any of its accepted forms. Errors name it as `argument_name`.
+pub(crate) fn read_pose(value: &Bound<'_, PyAny>, argument_name: &str) -> PyResult<Pose> {
+    read_given_pose(value, argument_name)?.pose(argument_name)
 }
 
 /// Reads a pose without normalising it.
-pub(crate) fn read_given_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<GivenPose> {
-    if let Ok((place, turned)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
+pub(crate) fn read_given_pose(
+    value: &Bound<'_, PyAny>,
+    argument_name: &str,
+) -> PyResult<GivenPose> {
+    if let Ok((position, rotation)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
         return Ok(GivenPose(
-            finite_numbers(&place, what)?,
-            read_rotation(&turned)?,
+            finite_numbers(&position, argument_name)?,
+            read_rotation(&rotation)?,
         ));
     }
-    if shape(value, what)?[..] != [4, 4] {
+    if shape(value, argument_name)?[..] != [4, 4] {
         return Err(input_error(format!(
-            "{what}: a matrix of shape (4, 4), or a pair of a position and a rotation is needed"
+            "{argument_name}: a matrix of shape (4, 4), or a pair of a position and a rotation is needed"
         )));
     }
-    let m: [f64; 16] = finite_numbers(value, what)?;
+    let m: [f64; 16] = finite_numbers(value, argument_name)?;
     if m[12..] != [0.0, 0.0, 0.0, 1.0] {
         return Err(input_error(format!(
-            "{what}: the last row of the matrix is not 0, 0, 0, 1"
+            "{argument_name}: the last row of the matrix is not 0, 0, 0, 1"
         )));
     }
     let rows = [m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]];
     Ok(GivenPose(
         [m[3], m[7], m[11]],
-        quaternion_from_rows(rows, what)?,
+        quaternion_from_rows(rows, argument_name)?,
     ))
 }

@@ -19,27 +19,30 @@ pub(crate) enum GivenMovement<'c> {
 
 impl<'c> GivenMovement<'c> {
     /// Extracts a movement from the argument `motion_a` or `motion_b`. None is a static body.
-    pub(crate) fn extract(given: Option<&'c Bound<'_, PyAny>>, what: &str) -> PyResult<Self> {
-        let Some(given) = given.filter(|given| !given.is_none()) else {
+    pub(crate) fn extract(
+        movement: Option<&'c Bound<'_, PyAny>>,
+        argument_name: &str,
+    ) -> PyResult<Self> {
+        let Some(movement) = movement.filter(|movement| !movement.is_none()) else {
             return Ok(GivenMovement::Motion(Motion::STILL, None));
         };
-        if let Ok(motion) = given.cast::<PyMotion>() {
+        if let Ok(motion) = movement.cast::<PyMotion>() {
             let motion = motion.get();
             return Ok(GivenMovement::Motion(motion.motion, motion.end));
         }
-        if let Ok(link) = given.cast::<PyLinkTrajectory>() {
+        if let Ok(link) = movement.cast::<PyLinkTrajectory>() {
             return Ok(GivenMovement::Link(
                 link.get().link()?,
                 link.get().duration(),
             ));
         }
-        if let Ok(path) = given.cast::<PyPath>() {
+        if let Ok(path) = movement.cast::<PyPath>() {
             return Ok(GivenMovement::Path(&path.get().poses));
         }
         Err(wrong_type_error(
-            what,
+            argument_name,
             "a Motion, a PosePath or a LinkTrajectory",
-            given,
+            movement,
         ))
     }
 
@@ -88,13 +91,13 @@ impl<'c> Pair<'c> {
         })
     }
 
-    /// Returns the duration of a query: the given one, or the default. The default is the end of links, paths and
+    /// Returns the duration of a query: the requested one, or the default. The default is the end of links, paths and
     /// motions between two poses, or 1 if there is none. If both movements have an end, the ends must be equal.
-    pub(crate) fn duration(&self, given: Option<f64>) -> PyResult<f64> {
-        let courses = [&self.a.1, &self.b.1];
-        let ends = courses.iter().filter_map(|course| course.end_time());
-        let duration = match given {
-            Some(given) => given,
+    pub(crate) fn duration(&self, requested: Option<f64>) -> PyResult<f64> {
+        let movements = [&self.a.1, &self.b.1];
+        let ends = movements.iter().filter_map(|movement| movement.end_time());
+        let duration = match requested {
+            Some(duration) => duration,
             None => {
                 let mut ends = ends;
                 let first = ends.next().unwrap_or(1.0);
@@ -102,17 +105,17 @@ impl<'c> Pair<'c> {
                     first
                 } else {
                     return Err(input_error(
-                        "duration: the two bodies' motions end at different times; give one",
+                        "duration: the motions of the two bodies end at different times; pass a duration",
                     ));
                 }
             }
         };
-        for course in courses {
-            if let GivenMovement::Link(_, end) = course
+        for movement in movements {
+            if let GivenMovement::Link(_, end) = movement
                 && duration > *end
             {
                 return Err(input_error(format!(
-                    "duration: {duration} is later than {end}, the end of the link's motion: its joints would go on"
+                    "duration: {duration} is later than {end}, the end of the link's motion, after which joints could exceed their limits"
                 )));
             }
         }
@@ -121,8 +124,8 @@ impl<'c> Pair<'c> {
 
     /// Returns a remark for each motion whose angular velocity seems to be in degrees instead of radians.
     pub(crate) fn remarks(&self, duration: f64) -> impl Iterator<Item = Remark> {
-        let courses = [&self.a.1, &self.b.1].into_iter();
-        courses.filter_map(move |course| match course {
+        let movements = [&self.a.1, &self.b.1].into_iter();
+        movements.filter_map(move |movement| match movement {
             GivenMovement::Motion(motion, _) => {
                 Remark::remark_on_spin(motion.angular_velocity(), duration)
             }
@@ -131,6 +134,6 @@ impl<'c> Pair<'c> {
     }
 
     pub(crate) fn moving_bodies(&self) -> [MovingBody<'_>; 2] {
-        [&self.a, &self.b].map(|(body, course)| (*body, course.trajectory()).into())
+        [&self.a, &self.b].map(|(body, movement)| (*body, movement.trajectory()).into())
     }
 }

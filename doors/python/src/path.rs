@@ -1,4 +1,4 @@
-//! The Python class of paths through poses.
+//! The Python class `PosePath`.
 
 use crate::arrays::{finite_numbers, flat_numbers, rows};
 use crate::errors::input_error;
@@ -17,9 +17,9 @@ use rigid_ccd::trajectory::{PosePath, Trajectory};
 ///     times: increasing times, one for each pose.
 ///     poses: one pose for each time, in the forms of `Motion.between`, for instance an array of shape (n, 4, 4).
 ///     center: the point in the body's frame that moves on straight lines; the body's origin by default.
-///     angular_velocities: angular velocities in the world, one from each pose to the next, of shape (n - 1, 3). An angular velocity
-///         may miss the next pose by at most a quarter turn; the rest is added as a second rotation. Zeros stand for
-///         the shortest rotation.
+///     angular_velocities: angular velocities in the world, one from each pose to the next, of shape (n - 1, 3). The rotation
+///         that it gives may differ from the next pose by at most a quarter turn; the difference is added as a second
+///         rotation. Zeros stand for the shortest rotation.
 ///
 /// >>> import numpy as np
 /// >>> from rigid_ccd import PosePath
@@ -49,20 +49,20 @@ impl PyPath {
         let times = flat_numbers(times, "times")?;
         // Reads one pose more than needed, to detect too many poses of an iterator that may have no end.
         let poses = poses.try_iter()?.take(times.len() + 1).enumerate();
-        let given: Vec<GivenPose> = poses
+        let given_poses: Vec<GivenPose> = poses
             .map(|(k, pose)| read_given_pose(&pose?, &format!("pose {k}")))
             .collect::<PyResult<_>>()?;
-        if given.len() != times.len() {
-            let is_more = given.len() > times.len();
+        if given_poses.len() != times.len() {
+            let is_more = given_poses.len() > times.len();
             return Err(input_error(format!(
                 "poses: there are {}{}, but {} times",
                 if is_more { "at least " } else { "" },
-                given.len(),
+                given_poses.len(),
                 times.len()
             )));
         }
         let center = center.map_or(Ok([0.0; 3]), |center| finite_numbers(center, "center"))?;
-        let timed = times.iter().zip(&given).enumerate();
+        let timed = times.iter().zip(&given_poses).enumerate();
         let timed = timed.map(|(k, (&time, pose))| Ok((time, pose.pose(&format!("pose {k}"))?)));
         let poses = PosePath::new(timed.collect::<PyResult<_>>()?).map_err(input_error)?;
         let mut poses = poses.about(center).map_err(input_error)?;
@@ -79,7 +79,7 @@ impl PyPath {
             constructor_call: ConstructorCall::new(
                 py,
                 None,
-                (times, given, center, angular_velocities),
+                (times, given_poses, center, angular_velocities),
             )?,
         })
     }

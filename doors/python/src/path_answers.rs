@@ -1,6 +1,6 @@
-//! Names of questions about paths, and answers as Python objects.
+//! Converts names of questions about paths, and answers to Python objects.
 
-use crate::errors::{UnresolvedError, input_error, with_attribute};
+use crate::errors::{input_error, path_limit_error};
 use ccd_tables::path_rows::PathRow;
 use ccd_tables::results::Status;
 use pyo3::prelude::*;
@@ -18,7 +18,7 @@ pub(crate) fn question_named(name: &str) -> PyResult<Question> {
     })
 }
 
-/// Returns the pair of an answer as a Python object, or `None` if there is none.
+/// Returns the pair of an answer as a Python `PathContact`, or `None` if the answer has no pair.
 pub(crate) fn contact_object<'py>(
     py: Python<'py>,
     answer: &PathRow,
@@ -54,17 +54,14 @@ pub(crate) fn contact_object<'py>(
 ///
 /// # Errors
 /// `UnresolvedError` if a limit was reached.
-pub(crate) fn check_resolved(py: Python<'_>, answer: &PathRow) -> PyResult<()> {
+pub(crate) fn check_resolved(answer: &PathRow) -> PyResult<()> {
     let Some(limit) = answer.limit else {
         return Ok(());
     };
-    let until = answer.row.time.unwrap_or(0.0);
-    let text = format!("a limit was reached ({limit}); free until {until}");
-    let error = UnresolvedError::new_err(text);
-    Err(with_attribute(py, error, "safe_until", until))
+    Err(path_limit_error(limit, answer.row.time.unwrap_or(0.0)))
 }
 
-/// Returns the bounds of a least distance as a Python object, with the verdict on a clearance.
+/// Returns the bounds of a least distance as a Python `PathDistance`. With a clearance, it tells whether it is kept.
 pub(crate) fn approach_object<'py>(
     py: Python<'py>,
     answer: &PathRow,

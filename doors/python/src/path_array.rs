@@ -7,7 +7,7 @@ use crate::errors::input_error;
 use pyo3::prelude::*;
 use rigid_ccd_robot::{JointCurve, PathPoint, Robot};
 
-/// A path as passed by Python: configurations or polynomials.
+/// A path that Python passed: configurations or a curve.
 pub(crate) enum GivenPath {
     Configurations(PathArray),
     Curve(JointCurve),
@@ -62,7 +62,7 @@ impl GivenPath {
     }
 }
 
-/// Many paths as passed by Python.
+/// Many paths that Python passed.
 pub(crate) enum GivenPaths {
     /// Paths of equally many configurations.
     Array(PathArray),
@@ -139,17 +139,17 @@ pub(crate) struct PathArray {
 
 impl PathArray {
     /// Reads an array of numbers.
-    fn read(values: &Bound<'_, PyAny>, robot: &Robot, what: &str) -> PyResult<Self> {
-        let given = read_configurations(values, robot, what)?;
-        PathArray::new(given.values, given.shape, what)
+    fn read(values: &Bound<'_, PyAny>, robot: &Robot, argument_name: &str) -> PyResult<Self> {
+        let array = read_configurations(values, robot, argument_name)?;
+        PathArray::new(array.values, array.shape, argument_name)
     }
 
-    fn new(positions: Vec<f64>, shape: Vec<usize>, what: &str) -> PyResult<Self> {
+    fn new(positions: Vec<f64>, shape: Vec<usize>, argument_name: &str) -> PyResult<Self> {
         // There may be no paths, but each path needs a configuration.
         let is_too_short = |shape: &[usize]| shape[shape.len().saturating_sub(2)..].contains(&0);
         if shape.is_empty() || shape.len() > 3 || is_too_short(&shape) {
             return Err(input_error(format!(
-                "{what}: configurations are needed, not an array of shape {shape:?}"
+                "{argument_name}: configurations are needed, not an array of shape {shape:?}"
             )));
         }
         Ok(PathArray { positions, shape })

@@ -1,6 +1,6 @@
 //! Answers questions of Python about one path in a cell.
 
-use crate::cell_remarks::{Asked, warn_of_question};
+use crate::cell_remarks::{AskedPaths, warn_of_question};
 use crate::cell_solver::CellWithCachedSolvers;
 use crate::errors::{bounds_interruption, input_error, interruption_error, time_interruption};
 use crate::interruptible::run_interruptibly;
@@ -14,11 +14,11 @@ use rigid_ccd_robot::{ClearanceRange, PathError, RangeSettings};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// The time limit of a first attempt on this thread. After it the question is repeated from its start on a thread that
-/// Ctrl-C can end. Starting a thread for every question would take longer than most questions.
+/// The time limit of a first attempt on this thread. A question that takes longer is repeated from its start on another
+/// thread, while this thread checks for Ctrl-C. Starting a thread for every question would take longer than most questions.
 const FIRST_ATTEMPT_TIME_LIMIT: Duration = Duration::from_millis(5);
 
-/// Answers a question about a path, after reading its configurations.
+/// Reads a path, and answers a question about it.
 pub(crate) fn ask_path(
     py: Python<'_>,
     solvers: &CellWithCachedSolvers,
@@ -29,47 +29,48 @@ pub(crate) fn ask_path(
     let cell = solvers.cell();
     let path = GivenPath::read(path, cell.robot())?;
     settings.check().map_err(input_error)?;
-    warn_of_question(py, &cell, &Asked::Path(&path), settings.tolerance)?;
-    let asked = PathQuestion {
+    warn_of_question(py, &cell, &AskedPaths::Path(&path), settings.tolerance)?;
+    let path_question = PathQuestion {
         question,
         clearance: settings.clearance.take(),
     };
     let ask = |settings: Settings| {
         solvers.ask(&settings, |solver| match &path {
-            GivenPath::Configurations(array) => asked.ask(solver, &array.configurations()),
-            GivenPath::Curve(curve) => asked.ask(solver, curve),
+            GivenPath::Configurations(array) => path_question.ask(solver, &array.configurations()),
+            GivenPath::Curve(curve) => path_question.ask(solver, curve),
         })
     };
     let limit = settings.deadline.unwrap_or(Duration::MAX);
     let first_limit = limit.min(FIRST_ATTEMPT_TIME_LIMIT);
-    let first = Settings {
+    let first_settings = Settings {
         deadline: Some(first_limit),
         ..settings.clone()
     };
-    let mut found = py.detach(|| ask(first));
-    if ended_by_deadline(&found) && limit > first_limit {
+    let mut answer = py.detach(|| ask(first_settings));
+    if ended_by_deadline(&answer) && limit > first_limit {
         let work = |stop: &Arc<_>| {
-            ask(Settings {
+            let settings = Settings {
                 deadline: settings.deadline.map(|_| limit - first_limit),
-                stop: Some(Arc::clone(stop)),
                 ..settings
-            })
+            };
+            ask(settings.stopped_by(stop))
         };
-        let (again, seen) = run_interruptibly(py, work, |_| Ok(()))?;
-        seen.map_err(|cause| interruption(py, cause, question, &again))?;
-        found = again;
+        let (second_answer, interruption) = run_interruptibly(py, work, |_| Ok(()))?;
+        interruption
+            .map_err(|cause| interrupted_question_error(py, cause, question, &second_answer))?;
+        answer = second_answer;
     }
-    found.map_err(input_error)
+    answer.map_err(input_error)
 }
 
 /// Makes the exception for an interrupted question, with the bounds known so far.
-fn interruption(
+fn interrupted_question_error(
     py: Python<'_>,
     cause: PyErr,
     question: Question,
-    found: &Result<PathRow, PathError>,
+    answer: &Result<PathRow, PathError>,
 ) -> PyErr {
-    let row = found.as_ref().ok().map(|answer| &answer.row);
+    let row = answer.as_ref().ok().map(|answer| &answer.row);
     if question.is_for_a_distance() {
         let lower = row.and_then(|row| row.distance_lower).unwrap_or(0.0);
         let upper = row.and_then(|row| row.distance_upper);
@@ -84,28 +85,24 @@ pub(crate) fn path_ranges<'py>(
     py: Python<'py>,
     solvers: &CellWithCachedSolvers,
     path: &Bound<'py, PyAny>,
-    how: RangeSettings,
+    range_settings: RangeSettings,
     settings: Settings,
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let cell = solvers.cell();
     let path = GivenPath::read(path, cell.robot())?;
-    warn_of_question(py, &cell, &Asked::Path(&path), settings.tolerance)?;
+    warn_of_question(py, &cell, &AskedPaths::Path(&path), settings.tolerance)?;
     let work = |stop: &Arc<_>| {
-        let settings = Settings {
-            stop: Some(Arc::clone(stop)),
-            ..settings
-        };
-        solvers.ask(&settings, |solver| match &path {
+        solvers.ask(&settings.stopped_by(stop), |solver| match &path {
             GivenPath::Configurations(array) => {
-                solver.clearance_ranges(&array.configurations(), how)
+                solver.clearance_ranges(&array.configurations(), range_settings)
             }
-            GivenPath::Curve(curve) => solver.clearance_ranges(curve, how),
+            GivenPath::Curve(curve) => solver.clearance_ranges(curve, range_settings),
         })
     };
-    let (ranges, seen) = run_interruptibly(py, work, |_| Ok(()))?;
+    let (ranges, interruption) = run_interruptibly(py, work, |_| Ok(()))?;
     let ranges = ranges.map_err(input_error)?;
     let ranges = range_objects(py, &path, &ranges)?;
-    match seen {
+    match interruption {
         Ok(()) => Ok(ranges),
         Err(cause) => Err(interruption_error(py, cause, ranges)),
     }

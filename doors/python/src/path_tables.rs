@@ -1,13 +1,13 @@
 //! Answers a question about each of many paths, as a table.
 
-use crate::cell_remarks::{Asked, warn_of_question};
+use crate::cell_remarks::{AskedPaths, warn_of_question};
 use crate::cell_solver::CellWithCachedSolvers;
 use crate::errors::input_error;
 use crate::path_answers::question_named;
 use crate::path_array::GivenPaths;
 use crate::progress::{GivenProgress, results_or_interruption, run_with_progress};
 use crate::settings::{names, read, read_thread_count};
-use crate::table::{PyTable, path_batch};
+use crate::table::{PyTable, path_result_batch};
 use ccd_tables::path_rows::PathQuestion;
 use ccd_tables::results::ResultRow;
 use pyo3::prelude::*;
@@ -28,42 +28,39 @@ pub(crate) struct GivenQuestion<'a, 'py> {
 pub(crate) fn answer_paths(
     py: Python<'_>,
     solvers: &CellWithCachedSolvers,
-    given: GivenQuestion<'_, '_>,
+    arguments: GivenQuestion<'_, '_>,
     read_paths: impl FnOnce() -> PyResult<GivenPaths>,
 ) -> PyResult<PyTable> {
-    let question = question_named(given.question)?;
-    let mut settings = read(given.settings, &names(question, &[]))?;
+    let question = question_named(arguments.question)?;
+    let mut settings = read(arguments.settings, &names(question, &[]))?;
     settings.check().map_err(input_error)?;
-    let asked = PathQuestion {
+    let path_question = PathQuestion {
         question,
         clearance: settings.clearance.take(),
     };
     let cell = solvers.cell();
     cell.check_any_compared().map_err(input_error)?;
-    let threads = read_thread_count(given.threads)?;
+    let threads = read_thread_count(arguments.threads)?;
     let paths = read_paths()?;
-    warn_of_question(py, &cell, &Asked::Paths(&paths), settings.tolerance)?;
+    warn_of_question(py, &cell, &AskedPaths::Paths(&paths), settings.tolerance)?;
     let progress = GivenProgress {
-        progress: given.progress,
+        progress: arguments.progress,
         total: Some(paths.count()),
     };
     let work = |stop: &Arc<AtomicBool>, done: &AtomicUsize| {
-        let settings = Settings {
-            stop: Some(Arc::clone(stop)),
-            ..settings
-        };
+        let settings = settings.stopped_by(stop);
         let task = Task {
-            question: asked,
+            question: path_question,
             settings: &settings,
             stop,
             done,
         };
         task.answer(solvers, threads, &paths)
     };
-    let (rows, seen) = run_with_progress(py, progress, work)?;
-    let batch = py.detach(|| path_batch(question, &rows));
+    let (rows, interruption) = run_with_progress(py, progress, work)?;
+    let batch = py.detach(|| path_result_batch(question, &rows));
     let batch = batch.map_err(input_error)?;
-    results_or_interruption(py, PyTable { batch }, seen)
+    results_or_interruption(py, PyTable { batch }, interruption)
 }
 
 /// A question about many paths, which a flag can stop.
@@ -76,7 +73,7 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// Returns the rows of all paths. If the flag `stop` is set meanwhile, returns the first rows only.
+    /// Answers all paths, and returns the row of each. If the flag `stop` is set meanwhile, returns the first rows only.
     fn answer(
         &self,
         solvers: &CellWithCachedSolvers,
@@ -91,42 +88,25 @@ impl Task<'_> {
                     let answer = |path: &[&[f64]]| {
                         self.unless_stopped(|| self.question.answer(solver, path).row)
                     };
-                    Group::of(paths.map_group(chunk, answer))
+                    paths.map_group(chunk, answer)
                 })
             }
             GivenPaths::Curves(curves) => {
                 solvers.answer_tasks(self.settings, threads, curves, |solver, curve| {
                     let answer = || self.question.answer(solver, curve).row;
-                    Group::of(vec![self.unless_stopped(answer)])
+                    vec![self.unless_stopped(answer)]
                 })
             }
         };
-        let stopped = groups.iter().position(|group| !group.is_whole);
-        let whole = stopped.map_or(groups.len(), |stopped| stopped + 1);
-        let groups = groups.into_iter().take(whole);
-        groups.flat_map(|group| group.rows).collect()
+        groups.into_iter().flatten().map_while(|row| row).collect()
     }
 
-    /// Returns a row, or `None` if the flag is set by the end: the question may have been stopped.
+    /// Calls `answer`, and returns its row. Returns `None` if the flag `stop` is set when it ends, because the question may have
+    /// been stopped.
     fn unless_stopped(&self, answer: impl FnOnce() -> ResultRow) -> Option<ResultRow> {
         let is_stopped = || self.stop.load(Ordering::Relaxed);
         let row = (!is_stopped()).then(answer).filter(|_| !is_stopped())?;
         self.done.fetch_add(1, Ordering::Relaxed);
         Some(row)
-    }
-}
-
-/// The rows of consecutive paths, up to the first path without an answer.
-struct Group {
-    rows: Vec<ResultRow>,
-    is_whole: bool,
-}
-
-impl Group {
-    fn of(rows: Vec<Option<ResultRow>>) -> Self {
-        let count = rows.len();
-        let rows: Vec<ResultRow> = rows.into_iter().map_while(|row| row).collect();
-        let is_whole = rows.len() == count;
-        Group { rows, is_whole }
     }
 }

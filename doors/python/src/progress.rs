@@ -26,18 +26,19 @@ pub(crate) fn run_with_progress<T: Send>(
     };
     let make = py.import("rigid_ccd._progress")?.getattr("reporter")?;
     let (report, close): (Option<Py<PyAny>>, Py<PyAny>) = make.call1((progress,))?.extract()?;
-    let mut told = None;
-    let mut tell = |py: Python<'_>| {
+    let mut reported = None;
+    let mut report_progress = |py: Python<'_>| {
         let now = done.load(Ordering::Relaxed);
         match &report {
-            Some(report) if told.replace(now) != Some(now) => {
+            Some(report) if reported.replace(now) != Some(now) => {
                 report.call1(py, (now, total)).map(drop)
             }
             _ => Ok(()),
         }
     };
-    let found = run_interruptibly(py, |stop| work(stop, &done), &mut tell);
-    let found = found.map(|(found, seen)| (found, seen.and_then(|()| tell(py))));
+    let found = run_interruptibly(py, |stop| work(stop, &done), &mut report_progress);
+    let found =
+        found.map(|(found, interruption)| (found, interruption.and_then(|()| report_progress(py))));
     close.call0(py)?;
     found
 }
@@ -46,9 +47,9 @@ pub(crate) fn run_with_progress<T: Send>(
 pub(crate) fn results_or_interruption<'py, T: IntoPyObject<'py>>(
     py: Python<'py>,
     results: T,
-    seen: PyResult<()>,
+    interruption: PyResult<()>,
 ) -> PyResult<T> {
-    match seen {
+    match interruption {
         Ok(()) => Ok(results),
         Err(cause) => Err(interruption_error(py, cause, results)),
     }

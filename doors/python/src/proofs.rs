@@ -1,9 +1,9 @@
 //! The Python functions that write and check machine-checkable proofs.
 
 use crate::body::extract_body;
-use crate::cell_remarks::{Asked, warn_of_question};
+use crate::cell_remarks::{AskedPaths, warn_of_question};
 use crate::errors::{
-    UnresolvedError, input_error, interruption_error, time_interruption, unresolved_error,
+    input_error, interruption_error, path_limit_error, time_interruption, unresolved_error,
     with_attribute, wrong_type_error,
 };
 use crate::interruptible::{run_interruptibly, run_or_leave};
@@ -13,20 +13,17 @@ use crate::path_array::GivenPath;
 use crate::progress::{GivenProgress, run_with_progress};
 use crate::queries::ask;
 use crate::settings::{REPORTING_START, names, read};
-use ccd_prove::{
-    Body, CellNotProvable, NoMesh, NotProven, PathNotProven, Proof, ProvenCell, ProvenPair,
-    Statement,
-};
+use ccd_prove::{Body, CellNotProvable, NoMesh, Proof, ProvenCell, ProvenPair, Statement};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict, PyType};
 use rigid_ccd::Question;
 use rigid_ccd::{Motion, Outcome, Settings};
-use rigid_ccd_robot::{Cell, PathAnswer, PathError, PathOutcome};
+use rigid_ccd_robot::{Cell, PathAnswer, PathOutcome};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Makes Python `Proof`s that share the same meshes.
+/// Makes Python `Proof` objects that share the same meshes.
 fn proof_objects<'a, 'py>(
     py: Python<'py>,
     proofs: &[Proof],
@@ -46,7 +43,7 @@ fn proof_objects<'a, 'py>(
 /// at all.
 ///
 /// Arguments and exceptions are those of `first_contact`, except that each motion is a `Motion` or None. The proof is
-/// about triangles only, and does not exclude that a body is inside another one.
+/// about triangles only: it does not prove that no body is inside another one.
 ///
 /// Raises:
 ///     InputError: a body has no triangles, the bodies touch at the start, or the answer cannot be proven.
@@ -84,10 +81,7 @@ pub(crate) fn prove<'py>(
     )?;
     let [a, b] = [extract_body(a, "a")?, extract_body(b, "b")?];
     let work = |stop: &Arc<_>| {
-        let settings = Settings {
-            stop: Some(Arc::clone(stop)),
-            ..settings.clone()
-        };
+        let settings = settings.stopped_by(stop);
         let prove = |pair: ProvenPair| {
             let proof = pair.prove(motions, duration, &settings, &answer);
             (pair, proof)
@@ -95,14 +89,14 @@ pub(crate) fn prove<'py>(
         let pair = ProvenPair::unless_stopped(a, b, stop)?;
         Some(pair.map(prove))
     };
-    let (proven, seen) = run_interruptibly(py, work, |_| Ok(()))?;
+    let (proven, interruption) = run_interruptibly(py, work, |_| Ok(()))?;
     let safe_until = match answer.outcome {
         Outcome::Free { .. } => Some(duration),
         Outcome::Contact { time, .. } => Some(time),
         Outcome::Unresolved(known) => Some(known.safe_until),
         _ => None,
     };
-    seen.map_err(|cause| time_interruption(py, cause, safe_until))?;
+    interruption.map_err(|cause| time_interruption(py, cause, safe_until))?;
     let proven = proven.ok_or_else(|| input_error("the proof was stopped"))?;
     let (pair, proof) = proven.map_err(|error: NoMesh| input_error(error))?;
     let proof = proof.transpose().map_err(input_error)?;
@@ -114,7 +108,7 @@ pub(crate) fn prove<'py>(
         }
         _ => objects
             .pop()
-            .ok_or_else(|| input_error("a and b touch at the start: there is nothing to prove")),
+            .ok_or_else(|| input_error("a and b touch at the start, so there is nothing to prove")),
     }
 }
 
@@ -127,12 +121,12 @@ pub(crate) fn prove_path<'py>(
     settings: Settings,
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let path = GivenPath::read(path, cell.robot())?;
-    warn_of_question(py, cell, &Asked::Path(&path), settings.tolerance)?;
+    warn_of_question(py, cell, &AskedPaths::Path(&path), settings.tolerance)?;
     let path = match path {
         GivenPath::Configurations(path) => path,
         GivenPath::Curve(_) => {
             return Err(input_error(
-                "path: a curve has no proofs, configurations do",
+                "path: only a path of configurations can be proven, not a curve",
             ));
         }
     };
@@ -145,134 +139,100 @@ pub(crate) fn prove_path<'py>(
         progress,
         total: Some(path.len() - 1),
     };
-    let work = |stop: &Arc<_>, done: &AtomicUsize| {
-        let settings = Settings {
-            stop: Some(Arc::clone(stop)),
-            ..settings.clone()
-        };
-        PathProofs::find(cell, &path, &settings, done)
-    };
-    let (found, seen) = run_with_progress(py, progress, work)?;
+    let work =
+        |stop: &Arc<_>, done: &AtomicUsize| PathProofs::find(cell, &path, (settings, stop), done);
+    let (path_proofs, interruption) = run_with_progress(py, progress, work)?;
     let PathProofs {
         meshes,
         proofs,
-        fault,
-    } = found.map_err(input_error)?;
+        error,
+    } = path_proofs.map_err(input_error)?;
     let proofs = proof_objects(py, &proofs, &meshes)?;
-    match (seen, fault) {
+    match (interruption, error) {
         (Err(cause), _) => Err(interruption_error(py, cause, proofs)),
-        (Ok(()), Some(fault)) => Err(with_attribute(py, fault.error(py), "results", proofs)),
+        (Ok(()), Some(error)) => Err(with_attribute(py, error, "results", proofs)),
         (Ok(()), None) => Ok(proofs),
     }
 }
 
 /// The proofs of the segments of a path, up to the first missing one.
+#[derive(Default)]
 struct PathProofs {
     meshes: Vec<Body>,
     proofs: Vec<Proof>,
-    fault: Option<Fault>,
+    /// The exception for the missing proof, if one is missing.
+    error: Option<PyErr>,
 }
 
-/// The reason why a proof is missing.
-enum Fault {
-    Path(PathError),
-    Proof(PathNotProven),
-    /// Two bodies touch at a time, but no proof can show it.
-    Contact([String; 2], f64),
-    /// A limit was reached. The path is free until a time.
-    Limit(String, f64),
-}
-
-impl Fault {
-    /// Returns the reason why proofs do not cover an answer to its end, or `None` if they do.
-    fn of_answer(answer: &PathAnswer<'_>, proofs: &[Proof]) -> Option<Self> {
-        match &answer.outcome {
-            PathOutcome::Free => None,
-            PathOutcome::Contact(contact) => {
-                let last = proofs.get(contact.at.segment);
-                let last = last.and_then(|proof| Statement::read(&proof.bytes));
-                let is_shown = last.is_some_and(|statement| statement.witness.is_some());
-                let names = contact.items.map(|item| item.name().to_owned());
-                (!is_shown).then(|| Fault::Contact(names, contact.at.time()))
+/// Returns the exception if proofs do not cover an answer to its end.
+fn missing_proof_error(answer: &PathAnswer<'_>, proofs: &[Proof]) -> Option<PyErr> {
+    match &answer.outcome {
+        PathOutcome::Contact(contact) => {
+            let last = proofs.get(contact.at.segment);
+            let last = last.and_then(|proof| Statement::read(&proof.bytes));
+            if last.is_some_and(|statement| statement.witness.is_some()) {
+                return None;
             }
-            outcome => {
-                let limit = outcome
-                    .limit()
-                    .map_or_else(String::new, |limit| limit.to_string());
-                Some(Fault::Limit(limit, answer.free_until.time()))
-            }
+            let [a, b] = contact.items.map(|item| item.name());
+            Some(input_error(format!(
+                "path: {a} and {b} touch at {}, and no proof can show it; `results` has the proofs of the segments before",
+                contact.at.time()
+            )))
         }
-    }
-
-    fn error(self, py: Python<'_>) -> PyErr {
-        match self {
-            Fault::Path(error) => input_error(error),
-            Fault::Proof(error) => input_error(error),
-            Fault::Contact([a, b], time) => input_error(format!(
-                "path: {a} and {b} touch at {time}, and no proof can show it; `results` has the proofs of the segments before"
-            )),
-            Fault::Limit(limit, time) => {
-                let text = format!("a limit was reached ({limit}); free until {time}");
-                with_attribute(py, UnresolvedError::new_err(text), "safe_until", time)
-            }
-        }
+        outcome => outcome
+            .limit()
+            .map(|limit| path_limit_error(limit, answer.free_until.time())),
     }
 }
 
 impl PathProofs {
-    /// No proofs, because another thread stopped the work before the first one.
-    const STOPPED: PathProofs = PathProofs {
-        meshes: Vec::new(),
-        proofs: Vec::new(),
-        fault: Some(Fault::Proof(PathNotProven::Segment {
-            segment: 0,
-            reason: NotProven::Stopped { at: 0.0 },
-        })),
-    };
-
-    /// Searches a path, and proves the answer. Counts proven segments in `done`.
+    /// Searches a path, and proves the answer. Counts proven segments in `done`. If another thread sets the flag `stop`
+    /// before the first proof, returns no proofs.
     fn find(
         cell: &Cell,
         path: &[&[f64]],
-        settings: &Settings,
+        (settings, stop): (Settings, &Arc<AtomicBool>),
         done: &AtomicUsize,
     ) -> Result<Self, CellNotProvable> {
-        let proven = match &settings.stop {
-            Some(stop) => ProvenCell::unless_stopped(cell, stop),
-            None => Some(ProvenCell::new(cell)),
+        let Some(proven) = ProvenCell::unless_stopped(cell, stop).transpose()? else {
+            return Ok(PathProofs::default());
         };
-        let Some(proven) = proven.transpose()? else {
-            return Ok(PathProofs::STOPPED);
-        };
-        let mut found = PathProofs {
+        let settings = settings.stopped_by(stop);
+        let mut path_proofs = PathProofs {
             meshes: proven.meshes().cloned().collect(),
-            proofs: Vec::new(),
-            fault: None,
+            ..PathProofs::default()
         };
         let mut solver = cell.solver().with_settings(settings.clone());
         match solver.first_contact(path) {
             Ok(answer) => {
-                for proof in proven.path_proofs(path, &answer, settings) {
+                for proof in proven.path_proofs(path, &answer, &settings) {
                     match proof {
-                        Ok(proof) => found.proofs.push(proof),
-                        Err(error) => found.fault = Some(Fault::Proof(error)),
+                        Ok(proof) => path_proofs.proofs.push(proof),
+                        Err(error) => path_proofs.error = Some(input_error(error)),
                     }
                     done.fetch_add(1, Ordering::Relaxed);
                 }
-                let missing = || Fault::of_answer(&answer, &found.proofs);
-                found.fault = found.fault.or_else(missing);
+                let missing = || missing_proof_error(&answer, &path_proofs.proofs);
+                path_proofs.error = path_proofs.error.or_else(missing);
             }
-            Err(error) => found.fault = Some(Fault::Path(error)),
+            Err(error) => path_proofs.error = Some(input_error(error)),
         }
-        Ok(found)
+        Ok(path_proofs)
     }
 }
 
 /// Reads a motion at constant velocities. Only these have proofs.
-fn constant_motion((_, motion): GivenBodyAndMotion<'_, '_>, what: &str) -> PyResult<Motion> {
-    match (GivenMovement::extract(motion, what)?, motion) {
+fn constant_motion(
+    (_, motion): GivenBodyAndMotion<'_, '_>,
+    argument_name: &str,
+) -> PyResult<Motion> {
+    match (GivenMovement::extract(motion, argument_name)?, motion) {
         (GivenMovement::Motion(motion, _), _) => Ok(motion),
-        (_, Some(given)) => Err(wrong_type_error(what, "a Motion for a proof", given)),
+        (_, Some(movement)) => Err(wrong_type_error(
+            argument_name,
+            "a Motion for a proof",
+            movement,
+        )),
         (_, None) => Ok(Motion::STILL),
     }
 }
@@ -292,8 +252,8 @@ pub(crate) fn check_proof(
     proof: Vec<u8>,
     meshes: Vec<(Vec<u8>, Vec<u8>)>,
 ) -> PyResult<String> {
-    let of_meshes = meshes.iter().map(|(mesh, tree)| mesh.len() + tree.len());
-    let bytes = proof.len() + of_meshes.sum::<usize>();
+    let mesh_sizes = meshes.iter().map(|(mesh, tree)| mesh.len() + tree.len());
+    let bytes = proof.len() + mesh_sizes.sum::<usize>();
     let check = move || {
         let read = |(mesh, tree): &(Vec<u8>, Vec<u8>)| ccd_check::Body::new(mesh, tree, &proof);
         let bodies = meshes.iter().map(read).collect::<Result<Vec<_>, _>>()?;
@@ -318,7 +278,7 @@ pub(crate) fn read_proof(proof: &[u8]) -> PyResult<(f64, bool, Vec<String>)> {
 }
 
 fn read_statement(proof: &[u8]) -> PyResult<Statement> {
-    Statement::read(proof).ok_or_else(|| input_error("this is no proof"))
+    Statement::read(proof).ok_or_else(|| input_error("these bytes are not a proof"))
 }
 
 /// Returns the statement of a proof as a text. Fails if the bytes are not a proof.

@@ -60,7 +60,7 @@ impl PairQuestion<'_> {
     fn run(&self, py: Python<'_>, settings: &Settings) -> PyResult<Answer> {
         let begin = Instant::now();
         let deadline = settings.deadline;
-        let short = Settings {
+        let first_settings = Settings {
             budget: settings.budget.min(FIRST_ATTEMPT_BUDGET),
             deadline: Some(deadline.map_or(FIRST_ATTEMPT_TIME_LIMIT, |deadline| {
                 deadline.min(FIRST_ATTEMPT_TIME_LIMIT)
@@ -70,15 +70,15 @@ impl PairQuestion<'_> {
         let first = py.detach(|| {
             catch_unwind(AssertUnwindSafe(|| {
                 let mut solver = SOLVER.take();
-                let found = self.answer(&mut solver, &short);
+                let answer = self.answer(&mut solver, &first_settings);
                 SOLVER.set(solver);
-                found
+                answer
             }))
         });
         let first = first
             .map_err(|panic| panic_error(panic.as_ref()))?
             .map_err(input_error)?;
-        let until = match &first.outcome {
+        let first_bound = match &first.outcome {
             Outcome::Unresolved(known)
                 if known.limit == Limit::Budget && settings.budget > FIRST_ATTEMPT_BUDGET
                     || known.limit == Limit::Deadline
@@ -88,22 +88,21 @@ impl PairQuestion<'_> {
             }
             _ => return Ok(first),
         };
-        let left = deadline.map(|deadline| deadline.saturating_sub(begin.elapsed()));
+        let remaining_time = deadline.map(|deadline| deadline.saturating_sub(begin.elapsed()));
         let work = |stop: &Arc<_>| {
             let settings = Settings {
-                deadline: left,
-                stop: Some(Arc::clone(stop)),
+                deadline: remaining_time,
                 ..settings.clone()
             };
-            self.answer(&mut Solver::new(), &settings)
+            self.answer(&mut Solver::new(), &settings.stopped_by(stop))
         };
-        let (found, seen) = run_interruptibly(py, work, |_| Ok(()))?;
-        seen.map_err(|cause| self.interruption(py, cause, &found))?;
-        let found = found.map_err(input_error)?;
-        // If little time is left, the first answer may be better than the second.
-        Ok(match &found.outcome {
-            Outcome::Unresolved(known) if until > self.proven_bound(known) => first,
-            _ => found,
+        let (second, interruption) = run_interruptibly(py, work, |_| Ok(()))?;
+        interruption.map_err(|cause| self.interruption(py, cause, &second))?;
+        let second = second.map_err(input_error)?;
+        // If little time is left, the first answer may prove more than the second.
+        Ok(match &second.outcome {
+            Outcome::Unresolved(known) if first_bound > self.proven_bound(known) => first,
+            _ => second,
         })
     }
 }
@@ -114,9 +113,9 @@ impl PairQuestion<'_> {
         &self,
         py: Python<'_>,
         cause: PyErr,
-        found: &Result<Answer, InputError>,
+        answer: &Result<Answer, InputError>,
     ) -> PyErr {
-        let outcome = found.as_ref().ok().map(|answer| &answer.outcome);
+        let outcome = answer.as_ref().ok().map(|answer| &answer.outcome);
         match outcome {
             _ if !self.question.is_for_a_distance() => {
                 let known = outcome.and_then(|outcome| match outcome {
@@ -144,15 +143,15 @@ pub(crate) fn ask(
     warn(py, pair.remarks(duration), 1)?;
     warn_of_large_tolerance(bodies.map(|(body, _)| body), settings.tolerance, 1)?;
     let bodies = pair.moving_bodies();
-    let asked = PairQuestion {
+    let pair_question = PairQuestion {
         question,
         bodies,
         duration,
     };
-    asked.run(py, settings)
+    pair_question.run(py, settings)
 }
 
-/// Returns the contact in an answer, or `None` if the bodies stay apart.
+/// Returns the contact in an answer, or `None` if the bodies stay apart. An unresolved answer is an `UnresolvedError`.
 fn hit_of_answer(py: Python<'_>, answer: Answer) -> PyResult<Option<Hit>> {
     answer.hit().map_err(|known| unresolved_error(py, &known))
 }
@@ -241,8 +240,8 @@ pub(crate) fn is_free(
 /// With a `clearance`, the query ends as soon as it is proven that the clearance is kept or violated. The answer tells
 /// which. Its bounds are then only as narrow as this decision requires.
 ///
-/// Bounds are those of the shapes: the upper bound includes the `excess` of the bodies over their shapes. A clearance
-/// is violated only if the shapes certainly come nearer.
+/// Bounds hold for the shapes: the upper bound includes the `excess` of the bodies over their shapes. A clearance is
+/// violated only if the shapes certainly come nearer.
 ///
 /// >>> from rigid_ccd import Body, Motion, closest_approach
 /// >>> ball, passes = Body.sphere(0.5), Motion([-3, 1.2, 0], velocity=[6, 0, 0])
@@ -265,12 +264,12 @@ pub(crate) fn closest_approach<'py>(
     distance_of_answer(py, &answer, &settings)
 }
 
-/// Computes bounds of the distance of two static bodies. Each pose takes the forms of `Motion.between`; None is the
-/// world's origin.
+/// Computes bounds of the distance of two static bodies. Poses take the same forms as in `Motion.between`; None is the
+/// identity.
 ///
 /// >>> from rigid_ccd import Body, distance
 /// >>> ball = Body.sphere(0.5)
-/// >>> round(distance(ball, ball, ([3, 0, 0], [1, 0, 0, 0])).upper, 3)
+/// >>> round(distance(ball, ball, ([3, 0, 0], [0, 0, 0, 1])).upper, 3)
 /// 2.0
 #[pyfunction]
 #[pyo3(signature = (a, b, pose_a = None, pose_b = None, **settings))]
@@ -282,18 +281,18 @@ pub(crate) fn distance<'py>(
     pose_b: Option<&Bound<'_, PyAny>>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let pose = |pose: Option<&Bound<'_, PyAny>>, what| match pose {
-        Some(pose) => read_pose(pose, what),
+    let pose = |pose: Option<&Bound<'_, PyAny>>, argument_name| match pose {
+        Some(pose) => read_pose(pose, argument_name),
         None => Ok(rigid_ccd::Pose::IDENTITY),
     };
     let (pose_a, pose_b) = (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?);
     let settings = read(settings, &names(Question::Distance, &["clearance"]))?;
     warn_of_large_tolerance([a, b], settings.tolerance, 1)?;
     let (a, b) = (extract_body(a, "a")?, extract_body(b, "b")?);
-    let asked = PairQuestion {
+    let pair_question = PairQuestion {
         question: Question::Distance,
         bodies: [(a, pose_a).into(), (b, pose_b).into()],
         duration: 0.0,
     };
-    distance_of_answer(py, &asked.run(py, &settings)?, &settings)
+    distance_of_answer(py, &pair_question.run(py, &settings)?, &settings)
 }

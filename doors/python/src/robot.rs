@@ -31,11 +31,11 @@ use std::sync::Arc;
 ///     joints: the joints, in the order of positions in configurations.
 ///     bodies: a dict from names of links to the bodies fixed to them. Each value is a Body, or a list of pairs of a
 ///         Body and its pose in the link's frame.
-///     may_touch: pairs of links that are not checked. Neighbours are never checked either.
+///     may_touch: pairs of links that are not checked. Links that are connected by a joint are never checked.
 ///
 /// >>> from rigid_ccd import Body, Joint, Robot, first_contact
 /// >>> shoulder = Joint.revolute("shoulder", "base", "upper arm")
-/// >>> elbow = Joint.revolute("elbow", "upper arm", "forearm", ([1, 0, 0], [1, 0, 0, 0]))
+/// >>> elbow = Joint.revolute("elbow", "upper arm", "forearm", ([1, 0, 0], [0, 0, 0, 1]))
 /// >>> arm = Robot([shoulder, elbow], {"forearm": Body.sphere(0.1)})
 /// >>> turns = arm.link_trajectory("forearm", [0.3, 0.5], [1.3, -1.5])
 /// >>> bool((turns.pose(1) == arm.pose("forearm", [1.3, -1.5])).all())
@@ -60,15 +60,15 @@ impl PyRobot {
         may_touch: Vec<(String, String)>,
     ) -> PyResult<Self> {
         // Collects one by one, because an object may report a wrong length.
-        let given = joints
+        let py_joints = joints
             .try_iter()?
             .map(|joint| Ok(joint?.cast_into::<PyJoint>()?.unbind()));
-        let given: Vec<Py<PyJoint>> = given.collect::<PyResult<_>>()?;
-        let joints: Vec<Joint> = given
+        let py_joints: Vec<Py<PyJoint>> = py_joints.collect::<PyResult<_>>()?;
+        let joints: Vec<Joint> = py_joints
             .iter()
             .map(|joint| joint.get().joint.clone())
             .collect();
-        let (links, read) = read_links(py, &joints, bodies.as_ref())?;
+        let (links, link_bodies) = read_links(py, &joints, bodies.as_ref())?;
         let robot = Robot::new(links, joints).map_err(input_error)?;
         let mut pairs = LinkPairs::from_robot(&robot);
         for (a, b) in &may_touch {
@@ -78,7 +78,7 @@ impl PyRobot {
         Ok(PyRobot {
             robot: Arc::new(robot),
             pairs,
-            constructor_call: ConstructorCall::new(py, None, (given, read, may_touch))?,
+            constructor_call: ConstructorCall::new(py, None, (py_joints, link_bodies, may_touch))?,
         })
     }
 
@@ -209,7 +209,7 @@ impl PyRobot {
     ///
     /// >>> from rigid_ccd import Body, Cell, Robot
     /// >>> ball = Robot([], {"body": Body.sphere(1)})
-    /// >>> both = Robot.combined({"red": ball, "blue": ball}, {"blue": ([5, 0, 0], [1, 0, 0, 0])}, {"red": "planar"})
+    /// >>> both = Robot.combined({"red": ball, "blue": ball}, {"blue": ([5, 0, 0], [0, 0, 0, 1])}, {"red": "planar"})
     /// >>> both.joint_names
     /// ['red/base/x', 'red/base/y', 'red/base/yaw']
     /// >>> contact = Cell(both).first_contact([[0, 0, 0], [6, 0, 0]])
@@ -226,15 +226,15 @@ impl PyRobot {
     ) -> PyResult<Self> {
         let py = class.py();
         let items = robots.items()?;
-        let given = items.iter().map(|item| item.extract());
-        let given: Vec<(String, Py<PyRobot>)> = given.collect::<PyResult<_>>()?;
-        let names: Vec<String> = given.iter().map(|(name, _)| name.clone()).collect();
+        let named_robots = items.iter().map(|item| item.extract());
+        let named_robots: Vec<(String, Py<PyRobot>)> = named_robots.collect::<PyResult<_>>()?;
+        let names: Vec<String> = named_robots.iter().map(|(name, _)| name.clone()).collect();
         let robot_bases = RobotBase::read_all(&names, poses, bases, carriers)?;
         // For pickle, keeps the values that were read, because the caller may change the arguments.
-        let read = [(); 4].map(|()| PyDict::new(py));
+        let arguments = [(); 4].map(|()| PyDict::new(py));
         let mut placed = Vec::new();
-        for ((name, robot), base) in given.iter().zip(&robot_bases) {
-            let [robots, poses, bases, carriers] = &read;
+        for ((name, robot), base) in named_robots.iter().zip(&robot_bases) {
+            let [robots, poses, bases, carriers] = &arguments;
             robots.set_item(name, robot)?;
             poses.set_item(name, base.pose)?;
             bases.set_item(name, &base.motion_name)?;
@@ -252,7 +252,7 @@ impl PyRobot {
             });
         }
         let (robot, pairs) = Robot::combine(&placed).map_err(input_error)?;
-        let arguments: (_, _, _, _) = read.into();
+        let arguments: (_, _, _, _) = arguments.into();
         Ok(PyRobot {
             robot: Arc::new(robot),
             pairs,
@@ -260,7 +260,8 @@ impl PyRobot {
         })
     }
 
-    /// The names of the joints that have a position of their own, in the order of a configuration.
+    /// The names of the independent joints, in the order of a configuration: all except fixed joints and joints that follow
+    /// another one.
     #[getter]
     fn joint_names(&self) -> Vec<&str> {
         self.robot.independent_joint_names().collect()
@@ -289,25 +290,29 @@ impl PyRobot {
         pairs.map(|[a, b]| (name(a), name(b))).collect()
     }
 
-    /// Remarks as texts. The first are on probable mistakes: elements of files that are left out, an SRDF of another
-    /// robot, sizes and angles in another unit. The others are on what is not checked: links without bodies, and pairs
-    /// of links by reason.
+    /// Remarks as texts: first on probable mistakes, such as elements of files that are left out, an SRDF of another robot,
+    /// or sizes and angles in another unit; then on links without bodies, and on pairs of links that are not checked.
     #[getter]
     fn remarks(&self) -> Vec<String> {
         remark_texts(&self.pairs.remarks(&self.robot))
     }
 
-    /// Finds the column of a joint among names of columns. The name is the prefix, then the joint's name. Returns the
-    /// name, and whether its positions are in degrees.
+    /// Finds the column of a joint among the names of columns: the prefix, the joint's name, and `_deg` for degrees. Returns
+    /// the name of the column, and whether it is in degrees.
     fn _joint_column(
         &self,
         names: Vec<String>,
         prefix: &str,
         joint: &str,
     ) -> PyResult<Option<(String, bool)>> {
-        let found = joint_column(&names, &self.robot, (prefix, joint), AngleUnit::Radian);
-        let found = found.map_err(input_error)?;
-        Ok(found.map(|own| (names[own.column].clone(), own.unit == AngleUnit::Degree)))
+        let column = joint_column(&names, &self.robot, (prefix, joint), AngleUnit::Radian);
+        let column = column.map_err(input_error)?;
+        Ok(column.map(|column| {
+            (
+                names[column.column].clone(),
+                column.unit == AngleUnit::Degree,
+            )
+        }))
     }
 
     /// Returns the pose of a link in the frame of the base, as a matrix of shape (4, 4).
@@ -317,15 +322,18 @@ impl PyRobot {
         configuration: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let py = configuration.py();
-        let given = read_configurations(configuration, &self.robot, "configuration")?;
-        let pose = self.robot.pose(link, &given.values).map_err(input_error)?;
+        let configuration = read_configurations(configuration, &self.robot, "configuration")?;
+        let pose = self
+            .robot
+            .pose(link, &configuration.values)
+            .map_err(input_error)?;
         Ok(pose_matrix(py, &pose))
     }
 
     /// Returns the motion of a link while each joint moves at a constant rate from its position in `start` to its
     /// position in `end`, as along an edge of a motion planner's roadmap.
     ///
-    /// All queries take it in place of a `Motion`. Answers are about the exact curve of the link, and not about sampled
+    /// All queries take it in place of a `Motion`. Answers hold for the exact curve of the link, without sampled
     /// steps.
     ///
     /// Args:
@@ -361,9 +369,9 @@ impl PyRobot {
         slf.get().constructor_call.reduce_tuple(slf.get_type())
     }
 
-    /// Decides for each pair of links with bodies whether they touch never, always, or sometimes, within the limits of
-    /// all joints. "never" and "always" are proven. "sometimes" is shown by two configurations, which `ccd acm
-    /// --report` writes.
+    /// Decides for each pair of links with bodies whether the links touch never, always or sometimes, within the limits of
+    /// all joints. "never" and "always" are proven. For "sometimes", there are two configurations as evidence, which
+    /// `ccd acm --report` writes.
     ///
     /// Args:
     ///     max_boxes: the average number of boxes of joint positions to examine for a pair. Each takes some
@@ -388,14 +396,14 @@ impl PyRobot {
         srdf: Option<PathBuf>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<PyTable> {
-        let asked = LinkContactQuestion {
+        let question = LinkContactQuestion {
             robot: &self.robot,
             pairs: &self.pairs,
             max_boxes,
             srdf,
             progress,
         };
-        asked.answer(py)
+        question.answer(py)
     }
 
     fn __repr__(&self) -> String {
@@ -418,18 +426,18 @@ impl PyRobot {
         constructor_call: ConstructorCall,
     ) -> PyResult<Self> {
         let (robot, pairs) = read_robot(py, file, srdf)?;
-        let read = PyRobot {
+        let py_robot = PyRobot {
             robot: Arc::new(robot),
             pairs,
             constructor_call,
         };
-        warn_of(py, read.file_remarks().cloned())?;
-        Ok(read)
+        warn_of(py, py_robot.file_remarks().cloned())?;
+        Ok(py_robot)
     }
 
     /// Returns the remarks on the files that the robot is from.
     pub(crate) fn file_remarks(&self) -> impl Iterator<Item = &CellRemark> {
-        let of_pairs = self.pairs.file_remarks();
-        self.robot.file_remarks().iter().chain(of_pairs)
+        let pair_remarks = self.pairs.file_remarks();
+        self.robot.file_remarks().iter().chain(pair_remarks)
     }
 }

@@ -6,15 +6,18 @@ use pyo3::prelude::*;
 use pyo3::types::PyMapping;
 use rigid_ccd_robot::CompoundKind;
 
-/// The pose of a robot's base, in the world or on a link, and how it moves, in the names of Python.
+/// The base of a robot: the link that carries it, its pose, and how it moves.
 pub(crate) struct RobotBase {
+    /// The link that carries the base; `None` for the world.
     pub(crate) carrier: Option<String>,
+    /// The pose in the frame of the carrier.
     pub(crate) pose: GivenPose,
+    /// "fixed", "planar" or "floating".
     pub(crate) motion_name: String,
 }
 
 impl RobotBase {
-    /// Reads the bases of the robots `names`. The dicts have poses, kinds of bases and carriers for some of them.
+    /// Reads the base of each robot in `names`. The dicts have the poses, motions and carriers of some bases.
     pub(crate) fn read_all(
         names: &[String],
         poses: Option<&Bound<'_, PyMapping>>,
@@ -27,18 +30,18 @@ impl RobotBase {
             motion_name: "fixed".to_owned(),
         };
         let mut bases: Vec<RobotBase> = names.iter().map(|_| at_rest()).collect();
-        let number = |name: &str, what: &str| {
-            let number = names.iter().position(|other| other == name);
-            number.ok_or_else(|| input_error(format!("{what}: there is no robot '{name}'")))
+        let robot_index = |name: &str, argument_name: &str| {
+            let index = names.iter().position(|other| other == name);
+            index.ok_or_else(|| input_error(format!("{argument_name}: there is no robot '{name}'")))
         };
         for (name, pose) in entries(poses)? {
-            bases[number(&name, "poses")?].pose = read_given_pose(&pose, "poses")?;
+            bases[robot_index(&name, "poses")?].pose = read_given_pose(&pose, "poses")?;
         }
         for (name, motion) in entries(motions)? {
-            bases[number(&name, "bases")?].motion_name = motion.extract()?;
+            bases[robot_index(&name, "bases")?].motion_name = motion.extract()?;
         }
         for (name, link) in entries(carriers)? {
-            bases[number(&name, "carriers")?].carrier = Some(link.extract()?);
+            bases[robot_index(&name, "carriers")?].carrier = Some(link.extract()?);
         }
         Ok(bases)
     }
@@ -60,7 +63,7 @@ impl RobotBase {
 
 type Entries<'py> = Vec<(String, Bound<'py, PyAny>)>;
 
-fn entries<'py>(given: Option<&Bound<'py, PyMapping>>) -> PyResult<Entries<'py>> {
-    let items = given.map(|given| given.items()).transpose()?;
+fn entries<'py>(mapping: Option<&Bound<'py, PyMapping>>) -> PyResult<Entries<'py>> {
+    let items = mapping.map(|mapping| mapping.items()).transpose()?;
     items.iter().flatten().map(|item| item.extract()).collect()
 }

@@ -49,47 +49,47 @@ pub(crate) fn read_robot(
     run_or_leave(py, u64::MAX, read)?
 }
 
-/// Refuses the text of a robot in place of a path.
+/// Returns an error if a path is the text of a robot.
 pub(crate) fn check_path(path: &Path) -> PyResult<()> {
     if path.to_string_lossy().trim_start().starts_with('<') {
         return Err(input_error(
-            "path: this is the text of a robot, and not the path of a file; Robot.from_urdf_text reads that of a URDF",
+            "path: this is the text of a robot, not the path of a file; Robot.from_urdf_text reads the text of a URDF",
         ));
     }
     Ok(())
 }
 
-/// Refuses the path of a file in place of the text of a robot.
+/// Returns an error if the text of a robot is the path of a file.
 pub(crate) fn check_text(text: &str) -> PyResult<()> {
     if text.contains('<') {
         return Ok(());
     }
     Err(input_error(
-        "text: this is no XML; Robot.from_urdf reads the file at a path",
+        "text: this is not XML; Robot.from_urdf reads the file at a path",
     ))
 }
 
 /// Reads a folder or a list of folders.
-pub(crate) fn read_folders(given: &Bound<'_, PyAny>) -> PyResult<Option<Vec<PathBuf>>> {
-    if given.is_none() {
+pub(crate) fn read_folders(folders: &Bound<'_, PyAny>) -> PyResult<Option<Vec<PathBuf>>> {
+    if folders.is_none() {
         return Ok(None);
     }
-    if let Ok(folder) = given.extract() {
+    if let Ok(folder) = folders.extract() {
         return Ok(Some(vec![folder]));
     }
     let needed = "a folder, or a list of folders,";
-    let folders = given
+    let iterator = folders
         .try_iter()
-        .map_err(|_| wrong_type_error("packages", needed, given))?;
+        .map_err(|_| wrong_type_error("packages", needed, folders))?;
     let folder = |folder: PyResult<Bound<'_, PyAny>>| {
         let folder = folder?;
         folder
             .extract()
             .map_err(|_| wrong_type_error("packages", needed, &folder))
     };
-    folders.map(folder).collect::<PyResult<_>>().map(Some)
+    iterator.map(folder).collect::<PyResult<_>>().map(Some)
 }
 
-fn unknown_name_error(what: &str, given: &str, known: &str) -> PyErr {
-    input_error(format!("{what}: '{given}' is not {known}"))
+fn unknown_name_error(argument_name: &str, name: &str, known: &str) -> PyErr {
+    input_error(format!("{argument_name}: '{name}' is not {known}"))
 }

@@ -7,8 +7,8 @@ use pyo3::types::{PyDict, PyMapping};
 use rigid_ccd_robot::{Joint, Link, LinkBody};
 use std::sync::Arc;
 
-/// Makes the links that joints name, and the links that have bodies. Also returns the bodies as they were read, for
-/// pickle, because the caller may change the arguments.
+/// Makes the links that joints name, and the links that have bodies. Also returns a copy of the dict of bodies for pickle,
+/// because the caller may change the dict.
 pub(crate) fn read_links<'py>(
     py: Python<'py>,
     joints: &[Joint],
@@ -21,21 +21,21 @@ pub(crate) fn read_links<'py>(
     {
         find_or_add_link(&mut links, name);
     }
-    let read = PyDict::new(py);
+    let read_bodies = PyDict::new(py);
     let items = bodies.map(|bodies| bodies.items()).transpose()?;
     for item in items.iter().flatten() {
-        let (name, held): (String, Bound<'_, PyAny>) = item.extract()?;
-        let held = read_link_bodies(&held)?;
+        let (name, bodies): (String, Bound<'_, PyAny>) = item.extract()?;
+        let bodies = read_link_bodies(&bodies)?;
         let link = find_or_add_link(&mut links, &name);
-        for (body, pose) in &held {
+        for (body, pose) in &bodies {
             link.bodies.push(LinkBody {
                 body: Arc::new(body.get().body.clone()),
                 pose: pose.pose("bodies")?,
             });
         }
-        read.set_item(name, held)?;
+        read_bodies.set_item(name, bodies)?;
     }
-    Ok((links, read))
+    Ok((links, read_bodies))
 }
 
 /// Returns the link with a name. Adds it if there is none.
@@ -49,17 +49,17 @@ fn find_or_add_link<'a>(links: &'a mut Vec<Link>, name: &str) -> &'a mut Link {
 }
 
 /// Reads the bodies fixed to a link: one body, or pairs of a body and its pose.
-fn read_link_bodies(held: &Bound<'_, PyAny>) -> PyResult<Vec<(Py<PyBody>, GivenPose)>> {
-    let body = |given: &Bound<'_, PyAny>| -> PyResult<Py<PyBody>> {
-        extract_body(given, "bodies")?;
-        Ok(given.clone().cast_into::<PyBody>()?.unbind())
+fn read_link_bodies(bodies: &Bound<'_, PyAny>) -> PyResult<Vec<(Py<PyBody>, GivenPose)>> {
+    let body = |body: &Bound<'_, PyAny>| -> PyResult<Py<PyBody>> {
+        extract_body(body, "bodies")?;
+        Ok(body.clone().cast_into::<PyBody>()?.unbind())
     };
-    if held.is_instance_of::<PyBody>() {
-        return Ok(vec![(body(held)?, GivenPose::IDENTITY)]);
+    if bodies.is_instance_of::<PyBody>() {
+        return Ok(vec![(body(bodies)?, GivenPose::IDENTITY)]);
     }
-    let pairs = held.try_iter()?.map(|pair| {
-        let (given, pose): (Bound<'_, PyAny>, Bound<'_, PyAny>) = pair?.extract()?;
-        Ok((body(&given)?, read_given_pose(&pose, "bodies")?))
+    let pairs = bodies.try_iter()?.map(|pair| {
+        let (pair_body, pose): (Bound<'_, PyAny>, Bound<'_, PyAny>) = pair?.extract()?;
+        Ok((body(&pair_body)?, read_given_pose(&pose, "bodies")?))
     });
     pairs.collect()
 }

@@ -8,8 +8,8 @@ use pyo3::types::PyDict;
 use rigid_ccd::{Question, Setting, SettingField, Settings, StartPolicy};
 use std::time::Duration;
 
-/// The settings that questions about two bodies, proofs and ranges do not take: they always report pairs in contact at
-/// the start.
+/// The settings that questions about two bodies, proofs and ranges do not take, because they always report contacts at the
+/// start.
 pub(crate) const REPORTING_START: &[&str] = &["start"];
 
 /// Returns the names of the settings of a question, except for `left_out`.
@@ -26,29 +26,29 @@ const MAX_THREADS: u16 = 1024;
 
 /// Reads the settings of a query. A keyword that is not in `known` is an error.
 pub(crate) fn read(
-    given: Option<&Bound<'_, PyDict>>,
+    keywords: Option<&Bound<'_, PyDict>>,
     known: &[&'static str],
 ) -> PyResult<Settings> {
     let mut settings = Settings::DEFAULT;
-    for (name, value) in given.into_iter().flatten() {
+    for (name, value) in keywords.into_iter().flatten() {
         let name: String = name.extract()?;
         let setting = Setting::from_name(&name).filter(|setting| known.contains(&setting.name));
         let setting = setting.ok_or_else(|| unknown_setting_error(&name, known))?;
         match setting.field {
-            SettingField::Length(of) => *of(&mut settings) = extract_setting(&name, &value)?,
-            SettingField::OptionalLength(of) => {
-                *of(&mut settings) = extract_setting(&name, &value)?;
+            SettingField::Length(field) => *field(&mut settings) = extract_setting(&name, &value)?,
+            SettingField::OptionalLength(field) => {
+                *field(&mut settings) = extract_setting(&name, &value)?;
             }
-            SettingField::Work(of) => {
+            SettingField::Work(field) => {
                 if !value.is_none() {
-                    *of(&mut settings) = whole_number(&value, &name, 0..=u64::MAX)?;
+                    *field(&mut settings) = whole_number(&value, &name, 0..=u64::MAX)?;
                 }
             }
-            SettingField::Time(of) => {
-                *of(&mut settings) = deadline(extract_setting(&name, &value)?)?;
+            SettingField::Time(field) => {
+                *field(&mut settings) = deadline(extract_setting(&name, &value)?)?;
             }
-            SettingField::StartPolicy(of) => {
-                *of(&mut settings) = start_policy(&extract_setting::<String>(&name, &value)?)?;
+            SettingField::StartPolicy(field) => {
+                *field(&mut settings) = start_policy(&extract_setting::<String>(&name, &value)?)?;
             }
         }
     }
@@ -56,9 +56,9 @@ pub(crate) fn read(
 }
 
 /// Reads the number of threads of a table query. `None` stands for one thread on each core.
-pub(crate) fn read_thread_count(given: Option<&Bound<'_, PyAny>>) -> PyResult<Option<u16>> {
-    let threads = |given| whole_number(given, "threads", 1..=MAX_THREADS);
-    given.map(threads).transpose()
+pub(crate) fn read_thread_count(threads: Option<&Bound<'_, PyAny>>) -> PyResult<Option<u16>> {
+    let read = |threads| whole_number(threads, "threads", 1..=MAX_THREADS);
+    threads.map(read).transpose()
 }
 
 fn extract_setting<'py, T>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<T>
@@ -88,7 +88,7 @@ fn deadline(seconds: Option<f64>) -> PyResult<Option<Duration>> {
     let deadline = finite.map(Duration::try_from_secs_f64).transpose();
     deadline.map_err(|_| {
         input_error(format!(
-            "deadline: {} is no number of seconds from 0",
+            "deadline: {} is not a number of seconds from 0 on",
             seconds.unwrap_or_default()
         ))
     })

@@ -9,7 +9,7 @@ mod pieces;
 mod results;
 mod stored;
 
-pub(crate) use results::path_batch;
+pub(crate) use results::path_result_batch;
 
 use crate::arrays::row_indices;
 use crate::errors::{input_error as refuse, input_error_or_interrupt, run_catching_panics};
@@ -45,10 +45,10 @@ impl PyTable {
         if reader.schema().fields().is_empty() {
             return Err(refuse("table: there is no column"));
         }
-        let (found, seen) =
+        let (batch, interruption) =
             run_interruptibly(py, |stop| batch::read_whole_table(reader, stop), |_| Ok(()))?;
-        seen?;
-        let batch = found.map_err(|error| input_error_or_interrupt(format!("table: {error}")))?;
+        interruption?;
+        let batch = batch.map_err(|error| input_error_or_interrupt(format!("table: {error}")))?;
         Ok(PyTable { batch })
     }
 
@@ -66,10 +66,15 @@ impl PyTable {
     /// Returns a table of selected rows: those with the given indices, in that order, or those at which a boolean array
     /// is true.
     fn take(&self, rows: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let all = self.batch.num_rows();
-        let rows = row_indices(rows, all)?;
-        if let Some(wrong) = rows.iter().find(|&&row| !(0..all as i64).contains(&row)) {
-            return Err(refuse(format!("row {wrong}: the table has {all} rows")));
+        let row_count = self.batch.num_rows();
+        let rows = row_indices(rows, row_count)?;
+        if let Some(invalid) = rows
+            .iter()
+            .find(|&&row| !(0..row_count as i64).contains(&row))
+        {
+            return Err(refuse(format!(
+                "row {invalid}: the table has {row_count} rows"
+            )));
         }
         let rows = arrow_array::Int64Array::from(rows);
         let batch = run_catching_panics("rows", || {
@@ -78,8 +83,7 @@ impl PyTable {
         Ok(PyTable { batch })
     }
 
-    /// Makes a table from its pickled form. Returns a table with one column of this table, then all columns of another
-    /// table of equal length.
+    /// Returns a table with one column of this table, then all columns of another table of equal length.
     fn _column_before(&self, name: &str, other: &Bound<'_, PyTable>) -> PyResult<Self> {
         let index = self.batch.schema().index_of(name).map_err(refuse)?;
         let (schema, others) = (self.batch.schema(), &other.get().batch);
@@ -93,6 +97,7 @@ impl PyTable {
         })
     }
 
+    /// Makes a table from its pickled form.
     #[classmethod]
     fn _from_bytes(
         class: &Bound<'_, PyType>,

@@ -4,7 +4,6 @@ use crate::body::{extract_body, warn_of_large_tolerance};
 use crate::errors::{
     input_error as refuse, input_error_or_interrupt, interruption_error, warn, with_attribute,
 };
-use crate::numbers::read_optional_number;
 use crate::progress::{GivenProgress, run_with_progress};
 use crate::settings::{self, REPORTING_START, TABLE_SETTING_NAMES};
 use crate::table::answering::{TableAnswers, TableQuestion, answer};
@@ -15,12 +14,11 @@ use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rigid_ccd::Question;
-use rigid_ccd::Settings;
 
 /// Answers a question about each row of a table of motions. `rigid_ccd.first_contacts` and the other table functions
 /// call it.
 #[pyfunction]
-#[pyo3(signature = (question, a, b, motions, *, clearance = None, threads = None, progress = None, micros = true, **settings))]
+#[pyo3(signature = (question, a, b, motions, *, threads = None, progress = None, micros = true, **settings))]
 #[allow(clippy::too_many_arguments, reason = "keyword arguments of Python")]
 pub(crate) fn answer_table(
     py: Python<'_>,
@@ -28,18 +26,14 @@ pub(crate) fn answer_table(
     a: &Bound<'_, PyAny>,
     b: &Bound<'_, PyAny>,
     motions: &Bound<'_, PyAny>,
-    #[pyo3(from_py_with = read_optional_number)] clearance: Option<f64>,
     threads: Option<&Bound<'_, PyAny>>,
     progress: Option<&Bound<'_, PyAny>>,
     micros: bool,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<PyTable> {
-    let question = self::question_named(question)?;
-    let settings = Settings {
-        clearance,
-        ..settings::read(settings, &allowed_setting_names(question))?
-    };
-    let asked = TableQuestion {
+    let question = question_named(question)?;
+    let settings = settings::read(settings, &allowed_setting_names(question))?;
+    let table_question = TableQuestion {
         bodies: BodyPair {
             a: extract_body(a, "a")?,
             b: extract_body(b, "b")?,
@@ -50,24 +44,24 @@ pub(crate) fn answer_table(
         has_micros: micros,
     };
     // Checks the settings once, because each row would repeat the same error.
-    check_table_settings(asked)?;
+    settings.check().map_err(refuse)?;
     let reader = input::open(motions)?;
     let progress = GivenProgress {
         progress,
         total: input::expected_answer_count(motions, &reader),
     };
-    let work = |stop: &_, done: &_| answer(asked, reader, stop, done);
-    let (found, seen) = run_with_progress(py, progress, work)?;
-    let found = found.map_err(|error| table_error(&error))?;
+    let work = |stop: &_, done: &_| answer(table_question, reader, stop, done);
+    let (answers, interruption) = run_with_progress(py, progress, work)?;
+    let answers = answers.map_err(|error| table_error(&error))?;
     let TableAnswers {
         results,
-        fault,
+        error: row_error,
         remarks,
-    } = found;
+    } = answers;
     let table = PyTable { batch: results };
-    match (seen, fault) {
+    match (interruption, row_error) {
         (Err(cause), _) => Err(interruption_error(py, cause, table)),
-        (Ok(()), Some(fault)) => Err(match table_error(&fault) {
+        (Ok(()), Some(row_error)) => Err(match table_error(&row_error) {
             error if error.is_instance_of::<PyKeyboardInterrupt>(py) => {
                 interruption_error(py, error, table)
             }
@@ -98,26 +92,6 @@ fn allowed_setting_names(question: Question) -> Vec<&'static str> {
     let mut names = settings::names(question, REPORTING_START);
     names.extend(TABLE_SETTING_NAMES);
     names
-}
-
-/// Returns an error for settings that would be invalid for every row of the table.
-fn check_table_settings(asked: TableQuestion<'_>) -> PyResult<()> {
-    match asked.settings.clearance {
-        Some(_) if !asked.question.is_for_a_distance() => {
-            return Err(refuse(
-                "clearance: only the least distance is compared with one; use margin, or distance_upper",
-            ));
-        }
-        // The comparison is written so that NaN is refused.
-        Some(clearance) if !(clearance >= 0.0 && clearance.is_finite()) => {
-            return Err(refuse(format!("clearance: {clearance} is no distance")));
-        }
-        _ => {}
-    }
-    let BodyPair { a, b } = asked.bodies;
-    let still = rigid_ccd::Pose::IDENTITY;
-    let query = rigid_ccd::Query::new((a, still), (b, still), 1.0, asked.settings);
-    query.map(drop).map_err(refuse)
 }
 
 fn table_error(error: &TableError) -> PyErr {

@@ -291,9 +291,9 @@ def test_columns_of_a_frame_are_joints() -> None:
             lambda frame: CELL.answer_edges(frame, PATH),
             lambda frame: CELL.answer_edges(PATH, frame),
         ):
-            with pytest.raises(InputError, match="the labels are y, x, and the joints of a configuration x, y"):
+            with pytest.raises(InputError, match="the labels are y, x, but the joints are x, y"):
                 use(make(bad))
-        with pytest.raises(InputError, match="the labels are a, b, and"):
+        with pytest.raises(InputError, match="the labels are a, b, but"):
             CELL.first_contact(make({"a": good["x"], "b": good["y"]}))
     assert repr(CELL.first_contact(pandas.DataFrame(bad)[CELL.robot.joint_names])) == known
     series = pandas.Series({"y": 1.0, "x": 0.0})

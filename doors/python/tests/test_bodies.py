@@ -87,7 +87,7 @@ def test_round_bodies_tell_how_far_they_stick_out(make: Callable[..., Body], tmp
     usual, fine = make(2, 1), make(2, 1, excess=1e-5)
     assert 0 < usual.excess <= 2 / 4096
     assert 0 < fine.excess <= 1e-5
-    assert usual.is_solid and "sticking out" in repr(usual)
+    assert usual.is_solid and "exceeded by" in repr(usual)
     for again in (pickle.loads(pickle.dumps(fine)), saved(fine, tmp_path / "fine.ccd")):
         assert again.excess == fine.excess
     for radius, half_height, excess in ((-1, 1, None), (1, float("nan"), None), (1, 1, 1e-9), (1, 1, float("nan"))):
@@ -112,7 +112,7 @@ def test_files_are_read(tmp_path: Path) -> None:
     # Reading a pipe without a writer would block.
     os.mkfifo(tmp_path / "pipe.obj")
     for other in ("pipe.obj", "."):
-        with pytest.raises(InputError, match="is no file"):
+        with pytest.raises(InputError, match="is not a file"):
             Body.from_file(tmp_path / other)
     with pytest.raises(InputError, match="unit"):
         Body.from_file(path, unit="mile")  # type: ignore[arg-type]

@@ -244,7 +244,7 @@ def test_edges_of_tables_are_those_of_arrays(robot: Robot) -> None:
     in_degrees = {"id": ids, "from_shoulder_deg": np.rad2deg(start), "to_shoulder": end}
     found = query(in_degrees)
     assert [*found["status"]] == [*expected["status"]] and np.nanmax(np.abs(found["time"] - expected["time"])) < 1e-9
-    for more, message in ((["from_shoulder"], "two columns for the joint shoulder"), (["from_elbow_deg"], "elbow, which rests")):
+    for more, message in ((["from_shoulder"], "two columns for the joint shoulder"), (["from_elbow_deg"], "elbow has columns, but also a position")):
         with pytest.raises(InputError, match=message):
             query({**in_degrees, **{name: start for name in more}})
     with pytest.raises(InputError, match="knee"):

@@ -90,5 +90,5 @@ def test_what_is_no_curve_is_refused_by_its_name(cell: Cell) -> None:
 
 def test_curves_have_no_proofs(cell: Cell) -> None:
     for curve in (interpolate.CubicSpline(TIMES, PLACES), interpolate.make_interp_spline(TIMES, PLACES)):
-        with pytest.raises(InputError, match="a curve has no proofs"):
+        with pytest.raises(InputError, match="only a path of configurations can be proven"):
             cell.prove(curve)

@@ -126,7 +126,7 @@ def test_names_are_those_of_the_joints_or_refused(kind: str, container: str) -> 
         if container in LABELLED and container not in ("rows of xarray", "numbers of xarray", "hierarchy"):
             text = str(refused.value)
             of_degrees = any(name.endswith("_deg") for name in names) and ("has no degrees" in text or "two columns" in text)
-            assert of_degrees or f"labels are {', '.join(names)}, and the joints of a configuration x, y" in text, text
+            assert of_degrees or f"labels are {', '.join(names)}, but the joints are x, y" in text, text
     for names in [JOINTS] + [[prefixes[kind] + name for name in JOINTS] for _ in [0] if kind in prefixes]:
         given = labelled(make, values, names, right)
         if container in NO_ARRAYS or container in ("numbers of xarray", "hierarchy"):
@@ -163,7 +163,7 @@ def test_a_name_of_a_column_is_no_configuration() -> None:
     scalars = xarray.DataArray(PATH[:2], dims=("t", "joint"), coords={"joint": ["x", "y"]})
     column, named = frame(PATH[:2], JOINTS)["x"], polars.Series("x", [0.5, 1.5])
     for given in (column, named, scalars.sel(joint="x"), [scalars[0].sel(joint=name) for name in ("y", "x")]):
-        with pytest.raises(InputError, match="the labels are .*, and the joints of a configuration x, y"):
+        with pytest.raises(InputError, match="the labels are .*, but the joints are x, y"):
             CELL.is_free(given)
 
 
@@ -215,7 +215,7 @@ def test_rows_of_edges_have_the_same_order() -> None:
 
     expected = statuses(start.to_numpy(), end.to_numpy())
     assert statuses(start, end) == statuses(start, end.to_numpy()) == expected
-    with pytest.raises(InputError, match="the same labels in another order"):
+    with pytest.raises(InputError, match="the same labels in different orders"):
         statuses(start, end.iloc[::-1])
     assert statuses(start, end.iloc[::-1].loc[start.index]) == expected
     assert statuses(start, end.set_index(pandas.Index(["a", "b", "c"]))) == expected

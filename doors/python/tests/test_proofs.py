@@ -66,7 +66,7 @@ def test_a_changed_proof_does_not_hold() -> None:
     other = proof_of(Body.box(1, 1, 1.25))
     assert check_proof(proof.proof, other.meshes).startswith("broken: ")
     assert check_proof(b"no proof", proof.meshes).startswith("broken: ")
-    with pytest.raises(InputError, match="this is no proof"):
+    with pytest.raises(InputError, match="these bytes are not a proof"):
         str(Proof(b"no proof", proof.meshes))
 
 
@@ -116,7 +116,7 @@ def test_a_proof_says_whether_it_ends_in_a_contact(cell: Cell) -> None:
     assert found is not None and (hit.outcome, hit.until) == ("contact", found.time)
     assert repr(hit) == f"Proof(contact at {found.time}, 2 bodies)"
     assert (free.outcome, free.until, repr(free)) == ("free", 1, "Proof(free until 1.0, 2 bodies)")
-    assert repr(Proof(b"", [])) == "Proof(this is no proof)"
+    assert repr(Proof(b"", [])) == "Proof(these bytes are not a proof)"
     first, second = cell.prove([[-1.0], [0.0], [3.0], [0.0]])
     assert (first.outcome, first.until) == ("free", 1)
     assert second.outcome == "contact" and 0 < second.until < 1

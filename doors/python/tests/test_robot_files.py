@@ -46,7 +46,7 @@ def test_a_text_is_no_path_and_a_path_no_text(tmp_path: Path) -> None:
         with pytest.raises(InputError, match="path: this is the text of a robot") as refused:
             read(text)
         assert len(str(refused.value)) < 200
-    with pytest.raises(InputError, match="text: this is no XML; Robot.from_urdf reads"):
+    with pytest.raises(InputError, match="text: this is not XML; Robot.from_urdf reads"):
         Robot.from_urdf_text("robot.urdf")
 
 

@@ -502,7 +502,7 @@ def test_other_questions() -> None:
     apart = distances(BALL, WALL, columns)
     assert apart["status"].tolist() == ["measured"] * 2
     assert apart["distance_upper"] == pytest.approx([2.4, 2.4])
-    with pytest.raises(InputError, match="clearance"):
+    with pytest.raises(TypeError, match="clearance"):
         first_contacts(BALL, WALL, columns, clearance=1.0)  # type: ignore[call-arg]
     with pytest.raises(TypeError, match="margin"):
         distances(BALL, WALL, columns, margin=1.0)  # type: ignore[call-arg]

@@ -26,13 +26,13 @@ enum rccd_status
  {
     // Success. A query that reaches a limit also succeeds: its outcome is unresolved.
     RCCD_STATUS_OK = 0,
-    // An argument is null where null is not allowed, or is not a value of its type.
+    // An argument is null but must not be, or is not a value of its type.
     RCCD_STATUS_INVALID_ARGUMENT = 1,
     // A number, such as a radius or a duration, is out of range.
     RCCD_STATUS_INVALID_INPUT = 2,
     // The mesh or file does not give a body.
     RCCD_STATUS_INVALID_BODY = 3,
-    // A defect of this library. Only free the objects of the call; any other use of them is not allowed.
+    // A defect of this library. Afterwards the objects passed to the call may only be freed.
     RCCD_STATUS_PANIC = 4,
 };
 #ifndef __cplusplus
@@ -49,8 +49,8 @@ enum rccd_outcome
   : int32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // A limit was reached first. Nothing touches until `safe_until`. The value is 0, so that an answer of zeros that no
-    // call has filled proves nothing.
+    // A limit was reached before the query was decided. Nothing touches until `safe_until`. The value is 0, so that an
+    // answer of zeros, which no call has filled, is unresolved.
     RCCD_OUTCOME_UNRESOLVED = 0,
     // The bodies stay apart over the whole duration.
     RCCD_OUTCOME_FREE = 1,
@@ -91,7 +91,7 @@ enum rccd_limit
     RCCD_LIMIT_STALLED = 4,
     // The oracle could not compute the distance of two pieces.
     RCCD_LIMIT_ORACLE_GAVE_UP = 5,
-    // Because of rounding it is undecided whether the bodies overlap at the start.
+    // Rounding leaves it undecided whether the bodies overlap at the start.
     RCCD_LIMIT_OVERLAP_UNDECIDED = 6,
     // A limit without a name in this interface.
     RCCD_LIMIT_OTHER = 255,
@@ -118,7 +118,7 @@ enum rccd_feature_kind
     RCCD_FEATURE_KIND_EDGE = 2,
     // The face `first` of the mesh.
     RCCD_FEATURE_KIND_FACE = 3,
-    // The convex piece `first`. Its facets are unknown, or are not faces of the mesh.
+    // The convex piece `first`, for a piece without known facets, or with facets that are not faces of the mesh.
     RCCD_FEATURE_KIND_PIECE = 4,
 };
 #ifndef __cplusplus
@@ -129,14 +129,14 @@ typedef uint32_t rccd_feature_kind;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// The way in which triangles in arrays are represented by convex pieces.
+// The convex pieces that represent triangles in arrays.
 enum rccd_pieces
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // The fewest pieces that represent the mesh exactly: one hull for a convex solid, else patches or triangles,
-    // whichever are faster.
+    // The fewest pieces that represent the mesh exactly: one hull for a convex solid, and otherwise patches or
+    // triangles, whichever are faster.
     RCCD_PIECES_AUTO = 0,
     // One piece for each triangle. A closed mesh is solid.
     RCCD_PIECES_TRIANGLES = 1,
@@ -161,8 +161,8 @@ enum rccd_start_policy
  {
     // The contact is the answer.
     RCCD_START_POLICY_REPORT = 0,
-    // Ignores the contact until the bodies approach. Holds for two bodies at constant velocities, and for paths in a
-    // cell, in questions about the first or any contact. In other questions about two bodies the contact is the answer.
+    // The contact is ignored until the bodies approach. This applies to questions about the first or any contact, of two
+    // bodies at constant velocities or on a path in a cell. In other questions about two bodies the contact is the answer.
     RCCD_START_POLICY_LEAVE = 1,
 };
 #ifndef __cplusplus
@@ -179,11 +179,12 @@ enum rccd_contact_normals
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // Where bodies touch up to rounding, the normal comes from the surfaces around the contact. Computing it may exceed
-    // the deadline by some hundred microseconds, and allocates memory.
+    // If the distance at a contact is only rounding error, the normal is computed from the surfaces around the contact.
+    // This may exceed the deadline by some hundred microseconds, and allocates memory.
     RCCD_CONTACT_NORMALS_REFINED = 0,
-    // The normal is that of the two triangles or convex pieces. Where they touch, it is mostly rounding error. Use it
-    // for queries that must keep a deadline or must not allocate. Questions about paths in a cell always use it.
+    // The normal is computed from the two triangles or convex pieces in contact. If they touch, it is mostly rounding
+    // error. Use it for queries that must keep a deadline or must not allocate. Questions about paths in a cell always
+    // use it.
     RCCD_CONTACT_NORMALS_OF_PIECES = 1,
 };
 #ifndef __cplusplus
@@ -197,20 +198,20 @@ typedef uint32_t rccd_contact_normals;
 // A body: a rigid shape. Many queries and threads may share it.
 typedef struct rccd_body rccd_body;
 
-// A cell (planning scene): a robot among obstacles that are static in the frame of its base. Each obstacle and each
-// attached body has a name of its own, different from the names of links. Changing the cell invalidates its solvers: their
-// questions fail from then on. Making a new solver takes about 30 µs.
+// A cell (planning scene): a robot among obstacles that are static in the frame of its base. The names of obstacles,
+// attached bodies and links are all different. Changing the cell invalidates its solvers: their questions fail from then
+// on. Making a new solver takes about 30 µs.
 typedef struct rccd_cell rccd_cell;
 
-// A solver for paths in a cell. After a change of the cell its questions fail. It reuses memory between questions. Each
-// thread needs its own.
+// A solver for paths in a cell. It reuses memory between questions. Each thread needs a solver of its own. After a change
+// of the cell, all questions to the solver fail.
 typedef struct rccd_cell_solver rccd_cell_solver;
 
 // A curve in joint space: the path of a robot whose joints follow polynomials in time. Many questions and threads may
 // share it.
 typedef struct rccd_joint_curve rccd_joint_curve;
 
-// A solver: settings, and memory that is reused between queries. Each thread needs its own.
+// A solver: settings, and memory that is reused between queries. Each thread needs a solver of its own.
 typedef struct rccd_solver rccd_solver;
 
 // A flag that stops the queries of all solvers whose settings point to it. Any thread may set or clear it at any time.
@@ -246,14 +247,14 @@ typedef struct rccd_settings {
     double margin;
     // The largest number of visits of a query. A visit takes about a microsecond or less, and longer for curves of a
     // high degree. Along a trajectory the budget is for each segment between two poses, or for each polynomial of a
-    // curve. In a cell it is for each query of two bodies: a question about a path takes at most 8 budgets for each
-    // segment, all pairs together, and the closest approach at most 12.
+    // curve. In a cell the budget is for each query of two bodies: a question about a path takes at most 8 budgets
+    // for each segment, all pairs together, and a closest approach at most 12.
     uint64_t budget;
-    // The time in seconds after which a query ends as unresolved, from 0 to 1e19; infinity for no deadline.
+    // The time in seconds after which a query ends as unresolved, from 0 to 1e19. Infinity is no deadline.
     double deadline;
-    // One of `rccd_start_policy`.
+    // A value of `rccd_start_policy`.
     uint32_t start_policy;
-    // One of `rccd_contact_normals`.
+    // A value of `rccd_contact_normals`.
     uint32_t contact_normals;
     // A flag that stops queries, or null. Solvers share its ownership: the caller may free it at any time.
     const struct rccd_stop *stop;
@@ -288,8 +289,8 @@ typedef struct rccd_path_answer {
     rccd_outcome outcome;
     // The limit that ended the search.
     rccd_limit limit;
-    // The index of the segment, from 0, of the contact or of the least distance found. For a free path it is the last
-    // segment. For an unresolved one, the path is free up to `fraction` of this segment.
+    // The index of the segment, from 0, with the contact or the least distance found. For a free path it is the last
+    // segment. An unresolved path is free up to `fraction` of this segment.
     size_t segment;
     // The position within that segment, from 0 at its start to 1 at its end. Nothing touches before a first contact.
     double fraction;
@@ -310,8 +311,7 @@ typedef struct rccd_path_answer {
     struct rccd_feature feature_a;
     // The feature of the second item that is in contact.
     struct rccd_feature feature_b;
-    // The tolerance that the answer meets: that of the settings, or a larger one if rounding of positions does not
-    // allow less.
+    // The tolerance of the answer. It is the tolerance of the settings, or larger if rounding of positions requires it.
     double tolerance;
 } rccd_path_answer;
 
@@ -343,16 +343,16 @@ typedef struct rccd_answer {
     size_t size;
     // The outcome of the query.
     rccd_outcome outcome;
-    // The limit that ended the query. It is also set if the outcome was already certain.
+    // The limit that ended the query, even if the outcome was already certain.
     rccd_limit limit;
-    // The time of the contact, or of the least distance found.
+    // The time of the contact, or the time at which the least distance was found.
     double time;
     // The time of the last contact of an interval.
     double last_time;
-    // The time until which nothing touches: the duration if the bodies stay free, the time of a first contact, or the
-    // time proven free before a limit.
+    // The time until which nothing touches: the duration if the bodies stay apart, the time of a first contact, or the
+    // time that was proven before a limit.
     double safe_until;
-    // A lower bound of the requested distance; for contacts, of the distance at all times.
+    // A lower bound of the requested distance. For questions about contacts it holds at all times.
     double lower;
     // An upper bound of the same distance; infinity if none is known.
     double upper;
@@ -366,7 +366,7 @@ typedef struct rccd_answer {
     struct rccd_feature feature_a;
     // The feature of the second body that is in contact.
     struct rccd_feature feature_b;
-    // For contacts, the largest distance beyond the margin at which one is reported; for distances, their accuracy.
+    // For contacts, the largest distance beyond the margin at which one is reported. For distances, their accuracy.
     double tolerance;
     // The number of visits that the query took, in the unit of the budget.
     uint64_t work;
@@ -399,13 +399,13 @@ rccd_status rccd_body_sphere(double radius, struct rccd_body **out);
 // `out` is null, or points to memory for a handle.
 rccd_status rccd_body_capsule(double radius, double half_height, struct rccd_body **out);
 
-// Makes a box around the origin. The arguments are half of its lengths along x, y and z.
+// Makes a box around the origin. The arguments are half extents along x, y and z.
 //
 // # Safety
 // `out` is null, or points to memory for a handle.
 rccd_status rccd_body_box(double half_x, double half_y, double half_z, struct rccd_body **out);
 
-// Makes a cylinder along z. It is represented by a polytope that encloses it; bounds in answers account for the excess.
+// Makes a cylinder along z. It is represented by a polytope that encloses it. Bounds in answers account for its excess.
 //
 // # Safety
 // `out` is null, or points to memory for a handle.
@@ -414,7 +414,7 @@ rccd_status rccd_body_cylinder(double radius,
                                struct rccd_body **out);
 
 // Makes a cone along z, with its base at `−half_height` and its apex at `half_height`. It is represented by a polytope
-// that encloses it; bounds in answers account for the excess.
+// that encloses it. Bounds in answers account for its excess.
 //
 // # Safety
 // `out` is null, or points to memory for a handle.
@@ -468,16 +468,16 @@ void rccd_body_free(struct rccd_body *body);
 // `body` is null or a handle; `out` is null or points to memory for a number.
 rccd_status rccd_body_piece_count(const struct rccd_body *body, size_t *out);
 
-// Stores 1 if a body is solid, and 0 if it is a surface. Something inside a surface does not touch it. A mesh is solid
-// if it is closed and its triangles are consistently oriented.
+// Stores 1 if a body is solid, and 0 if it is a surface. A body inside a surface does not touch it. A mesh is solid if
+// it is closed and its triangles are consistently oriented.
 //
 // # Safety
 // `body` is null or a handle; `out` is null or points to memory for a number.
 rccd_status rccd_body_is_solid(const struct rccd_body *body,
                                int32_t *out);
 
-// Stores an upper bound of how far a body extends beyond the shape that it represents. Only cylinders, cones and outer
-// hulls do.
+// Stores an upper bound of how far a body extends beyond the shape that it represents. The bound is 0 except for
+// cylinders, cones and outer hulls.
 //
 // # Safety
 // `body` is null or a handle; `out` is null or points to memory for a number.
@@ -486,8 +486,8 @@ rccd_status rccd_body_excess(const struct rccd_body *body,
 
 // Loads the robot of a URDF or MJCF file, with its meshes, as a cell without obstacles. All pairs of links are checked
 // except neighbours, links that never move relative to each other, and pairs that the SRDF file disables. `srdf` may be
-// null. `package_folder` is the folder searched first for `package://` names; it may be null. Meshes are used as they
-// are. MuJoCo uses their convex hulls instead, so it finds contacts in concavities that are free here.
+// null. `package_folder` is the folder searched first for `package://` names; it may be null. Meshes are exact.
+// MuJoCo uses their convex hulls instead, so it finds contacts in concavities that are free here.
 //
 // # Safety
 // Each text is null or ends with a zero; `out` is null or points to memory for a handle.
@@ -496,8 +496,8 @@ rccd_status rccd_cell_load(const char *robot,
                            const char *package_folder,
                            struct rccd_cell **out);
 
-// Makes a cell from the text of a URDF or MJCF, such as ROS's parameter `robot_description`. Relative names of meshes
-// are resolved in `folder`, or in the working folder if it is null. The other arguments are those of `rccd_cell_load`.
+// Makes a cell from the text of a URDF or MJCF, such as ROS's parameter `robot_description`. Relative paths of meshes
+// are resolved in `folder`, or in the working directory if it is null. The other arguments are as for `rccd_cell_load`.
 //
 // # Safety
 // Each text is null or ends with a zero; `out` is null or points to memory for a handle.
@@ -578,7 +578,8 @@ rccd_status rccd_cell_attach(struct rccd_cell *cell,
 rccd_status rccd_cell_detach(struct rccd_cell *cell, const char *name);
 
 // Allows two items to touch, even if they have a clearance. An item is a link, an attached body or an obstacle. The
-// permission ends when one of them is removed, and by `rccd_cell_forbid_contact` and `rccd_cell_set_clearance`.
+// permission lasts until one of them is removed, or until `rccd_cell_forbid_contact` or `rccd_cell_set_clearance` is
+// called for them.
 //
 // # Safety
 // `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.
@@ -586,16 +587,18 @@ rccd_status rccd_cell_allow_contact(struct rccd_cell *cell,
                                     const char *a,
                                     const char *b);
 
-// Checks two items again that were allowed to touch, or checks two links that were not checked before.
+// Revokes the permission of two items to touch. For two links that are not checked, adds them to the checked pairs.
 //
 // # Safety
 // As for `rccd_cell_allow_contact`.
-rccd_status rccd_cell_forbid_contact(struct rccd_cell *cell, const char *a, const char *b);
+rccd_status rccd_cell_forbid_contact(struct rccd_cell *cell,
+                                     const char *a,
+                                     const char *b);
 
 // Stores a summary of the checked pairs of the cell, as lines of text: counts, then all remarks. A line that begins
 // with `warning: ` reports a probable mistake, such as a size in another unit or the SRDF of another robot, or that
 // most of the robot is not checked. The other lines list pairs and links that are not checked, with reasons. The text
-// is valid until the next such call for the cell, or until the cell is freed.
+// is valid until this function is called again for the cell, or until the cell is freed.
 //
 // # Safety
 // `cell` is null or a handle that no other call uses; `out` is null or points to memory for a text.
@@ -611,8 +614,9 @@ rccd_status rccd_cell_set_padding(struct rccd_cell *cell,
                                   const char *link,
                                   double distance);
 
-// Sets the distance at which two items count as touching. It replaces margin and paddings for this pair of links, attached
-// bodies or obstacles. The pair is checked from now on, even if it was not checked or was allowed to touch.
+// Sets the distance at which two items count as touching. For this pair it replaces the margin and paddings. An item is
+// a link, an attached body or an obstacle. The pair is checked from now on, even if it was not checked or was allowed to
+// touch.
 //
 // # Safety
 // `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.
@@ -622,11 +626,11 @@ rccd_status rccd_cell_set_clearance(struct rccd_cell *cell,
                                     double distance);
 
 // Makes a solver for a cell. If `settings` is null, it uses the defaults. The margin is the distance at which bodies
-// count as touching. The deadline is for a whole question. A cell without a pair to check is an error: links that a
-// joint connects are checked only if `rccd_cell_set_clearance` names them. `contact_normals` has no effect.
+// count as touching. The deadline is for a whole question. A cell without a pair to check is an error: links that are
+// connected by a joint are not checked, unless `rccd_cell_set_clearance` is called for them. `contact_normals` has no effect.
 //
 // With the start policy `RCCD_START_POLICY_LEAVE`, pairs in contact at the start may separate or slide, but not come
-// nearer. This is for questions about the first or any contact. `rccd_cell_closest_approach` is an error with it.
+// nearer. This applies to questions about the first or any contact. `rccd_cell_closest_approach` fails with this policy.
 //
 // # Safety
 // `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `out` is null
@@ -668,8 +672,8 @@ rccd_status rccd_cell_any_contact(struct rccd_cell_solver *solver,
                                   const struct rccd_path *path,
                                   struct rccd_path_answer *answer);
 
-// Computes bounds of the least distance of any pair on a path, to within the tolerance. Margin, paddings and clearances
-// have no effect.
+// Computes bounds of the least distance of all checked pairs on a path, to within the tolerance. The margin, paddings and
+// clearances have no effect.
 //
 // # Safety
 // As for `rccd_cell_first_contact`.
@@ -677,10 +681,10 @@ rccd_status rccd_cell_closest_approach(struct rccd_cell_solver *solver,
                                        const struct rccd_path *path,
                                        struct rccd_path_answer *answer);
 
-// Writes a JSON record of an answer to `rccd_cell_first_contact` to a file. The record has the path, the settings,
+// Writes an answer of `rccd_cell_first_contact` and its question to a JSON file. The file has the path, the settings,
 // digests of all bodies of the cell, and the answer. `ccd replay` repeats the question without the deadline, and
-// reports whether the answer holds. The cell must be as it was when the solver was made. If `settings` is null, the
-// defaults are recorded.
+// reports whether the answer holds. The cell must be unchanged since the solver was made. If `settings` is null, the
+// defaults are written.
 //
 // # Safety
 // `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `path` is as
@@ -692,8 +696,8 @@ rccd_status rccd_evidence_write(const struct rccd_cell *cell,
                                 const struct rccd_path_answer *answer,
                                 const char *file);
 
-// Makes a curve through configurations at ascending times, with given velocities. Segments are cubic polynomials, or
-// quintic ones if `accelerations` is not null.
+// Makes a curve through configurations at ascending times, with the velocity at each of them. Segments are cubic
+// polynomials. If `accelerations` is not null, they are quintic, and also have these accelerations.
 //
 // # Safety
 // `times` is null or points to `count` numbers; `positions`, `velocities` and `accelerations` are null or point to
@@ -707,8 +711,8 @@ rccd_status rccd_joint_curve_through(const double *times,
                                      struct rccd_joint_curve **out);
 
 // Makes a curve from polynomials in the time since each segment's start. The degree is at most 9. `coefficients` has
-// `degree + 1` numbers for each joint of each segment, lowest power first. `times` are the boundaries of the segments:
-// one more than segments.
+// `degree + 1` numbers for each joint of each segment, lowest power first. `times` has the start of each segment, then
+// the end of the last one.
 //
 // # Safety
 // `times` is null or points to `segment_count + 1` numbers; `coefficients` is null or points to `segment_count ·
@@ -726,7 +730,7 @@ rccd_status rccd_joint_curve_from_polynomials(const double *times,
 // The handle is null, or comes from this library, is not in use, and has not been freed.
 void rccd_joint_curve_free(struct rccd_joint_curve *curve);
 
-// Returns the motion of a static body at the origin. Change its fields before use.
+// Returns the motion of a static body at the origin. Change its fields to make the body move.
 struct rccd_motion rccd_motion_at_rest(void);
 
 // Computes the motion from one pose at time 0 to another at time `duration`, by the shortest rotation. `center` is the
@@ -791,7 +795,8 @@ rccd_status rccd_any_contact(struct rccd_solver *solver,
                              double duration,
                              struct rccd_answer *answer);
 
-// Finds the first and the last contact of two moving bodies. They do not touch before the first time or after the last.
+// Finds the first and the last contact of two moving bodies. They do not touch before the first contact or after the last
+// one.
 //
 // # Safety
 // As for `rccd_first_contact`.
@@ -812,9 +817,10 @@ rccd_status rccd_closest_approach(struct rccd_solver *solver,
                                   double duration,
                                   struct rccd_answer *answer);
 
-// Decides whether two moving bodies always keep a distance of at least `clearance`. If they do, the outcome is free. If
-// they do not, it is a contact, at a time at which they are nearer. If the bounds are too far apart to decide, it is
-// the least distance. Bodies that possibly touch do not keep a clearance of 0 either.
+// Decides whether two moving bodies always keep a distance of at least `clearance`. If they do, the outcome is
+// `RCCD_OUTCOME_FREE`. If they do not, it is `RCCD_OUTCOME_CONTACT`, at a time at which they are nearer. If the bounds of
+// the distance do not decide, it is `RCCD_OUTCOME_LEAST_DISTANCE`. Bodies that possibly touch do not keep a clearance of
+// 0.
 //
 // # Safety
 // As for `rccd_first_contact`.
@@ -829,7 +835,7 @@ rccd_status rccd_keeps_clearance(struct rccd_solver *solver,
 const char *rccd_version(void);
 
 // Returns the message of this thread's last failed call, in UTF-8; empty if no call has failed. The text is valid until
-// this thread's next failed call. Call this in a statement of its own, after the failed call.
+// this thread's next failed call. Call this in a separate statement after the failed call.
 const char *rccd_last_error(void);
 
 // Makes a flag that is not set.
@@ -838,7 +844,7 @@ const char *rccd_last_error(void);
 // `out` is null, or points to memory for a handle.
 rccd_status rccd_stop_new(struct rccd_stop **out);
 
-// Sets the flag. Running and later queries end as unresolved until it is cleared. A question that needs no search is
+// Sets the flag. Until it is cleared, running and later queries end as unresolved. Questions that need no search are
 // still answered.
 //
 // # Safety
@@ -867,7 +873,7 @@ rccd_status rccd_trajectory_pose_path(const double *times,
                                       size_t count,
                                       struct rccd_trajectory **out);
 
-// Makes the trajectory of a thrown body: a motion whose center has a constant acceleration, as in free fall.
+// Makes the trajectory of a body in free fall: `thrown` with a constant acceleration of its center.
 //
 // # Safety
 // `thrown` is null or points to a motion, `acceleration` is null or points to three numbers, and `out` is null or
@@ -877,27 +883,27 @@ rccd_status rccd_trajectory_ballistic(const struct rccd_motion *thrown,
                                       struct rccd_trajectory **out);
 
 // Makes the trajectory of a body whose origin follows a Bézier curve of any degree from time 0 to `duration`. `points`
-// are the control points, three numbers each. If `turns` is null, the body does not rotate.
+// are the control points, three numbers each. If `rotations` is null, the body does not rotate.
 //
 // # Safety
-// `points` is null or points to `3 · count` numbers; `turns` is null or points to turns, whose times and rotations
-// are null or point to as many numbers as their count says; `out` is null or points to memory for a handle.
+// `points` is null or points to `3 · count` numbers; `rotations` is null or points to rotations, whose times and
+// quaternions are null or point to as many numbers as their count says; `out` is null or points to memory for a handle.
 rccd_status rccd_trajectory_bezier(const double *points,
                                    size_t count,
                                    double duration,
-                                   const struct rccd_rotations *turns,
+                                   const struct rccd_rotations *rotations,
                                    struct rccd_trajectory **out);
 
 // Makes the trajectory of a body whose origin follows a uniform cubic B-spline from time 0 to `duration`. `points` are
-// at least four control points, three numbers each. The curve begins near the second one and ends near the last but
-// one. If `turns` is null, the body does not rotate.
+// at least four control points, three numbers each. The curve begins near the second point and ends near
+// the last but one. If `rotations` is null, the body does not rotate.
 //
 // # Safety
 // As for `rccd_trajectory_bezier`.
 rccd_status rccd_trajectory_b_spline(const double *points,
                                      size_t count,
                                      double duration,
-                                     const struct rccd_rotations *turns,
+                                     const struct rccd_rotations *rotations,
                                      struct rccd_trajectory **out);
 
 // Frees a trajectory. Does nothing for null.

@@ -1,6 +1,6 @@
-// Certified continuous collision detection of rigid bodies, for C++17. Handles free themselves. Failures are exceptions
-// or expected values, by choice. This header is a wrapper around rigid_ccd.h, which documents the structs and their
-// fields. Robots are in rigid_ccd_cell.hpp.
+// Certified continuous collision detection of rigid bodies, for C++17. Objects free their handles. Failures are
+// exceptions, or errors in return values if RIGID_CCD_EXPECTED is defined. This header wraps rigid_ccd.h, which documents
+// the structs and their fields. Robots are in rigid_ccd_cell.hpp.
 #ifndef RIGID_CCD_HPP
 #define RIGID_CCD_HPP
 
@@ -24,8 +24,8 @@
 #define RIGID_CCD_HAS_EIGEN 1
 #endif
 
-// Source files of one program may choose differently between exceptions and expected values: an inline namespace keeps
-// their symbols apart.
+// Source files of one program may differ in whether they define RIGID_CCD_EXPECTED. An inline namespace for each choice
+// gives their symbols different names.
 #ifdef RIGID_CCD_EXPECTED
 #define RIGID_CCD_FAILURES with_expected
 #else
@@ -92,7 +92,7 @@ Result<T> fail(Error error) {
 #endif
 }
 
-// Returns the result of `make` if a call has succeeded, and the error otherwise.
+// Returns the result of `make` if `status` is success, and the error otherwise.
 template <typename Make>
 auto after(rccd_status status, Make &&make) -> Result<decltype(make())> {
     if (status != RCCD_STATUS_OK) return fail<decltype(make())>(Error(status));
@@ -101,6 +101,13 @@ auto after(rccd_status status, Make &&make) -> Result<decltype(make())> {
 
 inline Result<Done> done(rccd_status status) {
     return after(status, [] { return Done{}; });
+}
+
+// Calls a function with a pointer to a value. Returns the value if the call succeeds, and the error otherwise.
+template <typename T, typename Call>
+Result<T> stored(Call &&call, T value = {}) {
+    const rccd_status status = call(&value);
+    return after(status, [&] { return value; });
 }
 
 // Calls `give` to make a handle, and returns an object that owns it.
@@ -112,20 +119,20 @@ Result<Object> hold(Give &&give) {
 }
 
 // Returns the error for an array of the wrong length.
-inline Error wrong_count(const std::string &what, std::size_t needed, std::size_t given) {
-    return {RCCD_STATUS_INVALID_ARGUMENT, what + ": " + std::to_string(needed) + " numbers are needed, not " + std::to_string(given)};
+inline Error wrong_count(const std::string &argument_name, std::size_t needed, std::size_t count) {
+    return {RCCD_STATUS_INVALID_ARGUMENT, argument_name + ": " + std::to_string(needed) + " numbers are needed, not " + std::to_string(count)};
 }
 
-// `c_text` returns the text for a call in C. If the text contains a zero, it returns null, which the call refuses.
+// `c_text` returns the text for a call in C. If the text contains a zero byte, it returns null, and the call fails.
 inline bool has_zero(const std::string &text) { return text.find('\0') != std::string::npos; }
 inline const char *c_text(const std::string &text) { return has_zero(text) ? nullptr : text.c_str(); }
 
 // Whether a container is a contiguous array of one dimension. Checks types of Eigen: a matrix has two dimensions, and a
 // row of a matrix may have a stride.
 template <typename Container, typename = void>
-struct InOneRow : std::true_type {};
+struct IsContiguous : std::true_type {};
 template <typename Container>
-struct InOneRow<Container, std::void_t<decltype(Container::InnerStrideAtCompileTime)>>
+struct IsContiguous<Container, std::void_t<decltype(Container::InnerStrideAtCompileTime)>>
     : std::bool_constant<bool(Container::IsVectorAtCompileTime) && Container::InnerStrideAtCompileTime == 1> {};
 
 } // namespace detail
@@ -136,7 +143,7 @@ class View {
 public:
     View() = default;
     View(const T *data, std::size_t size) : data_(data), size_(size) {}
-    // Silences a warning of GCC: values in braces live until the end of the call that they are passed to.
+    // Silences a warning of GCC, which does not apply: values in braces live until the end of the call.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Winit-list-lifetime"
@@ -148,9 +155,9 @@ public:
     template <std::size_t SIZE>
     View(const T (&values)[SIZE]) : data_(values), size_(SIZE) {}
     // Takes any container with data() and size(): std::vector, std::array, std::span, and vectors of Eigen without a
-    // stride. For a matrix pass data() and size() yourself, after a check that its storage order is the intended one.
+    // stride. For a matrix, pass data() and size(), and check that its storage order is the intended one.
     template <typename Container, typename Data = decltype(std::declval<const Container &>().data()),
-              typename = std::enable_if_t<std::is_convertible_v<Data, const T *> && detail::InOneRow<Container>::value>>
+              typename = std::enable_if_t<std::is_convertible_v<Data, const T *> && detail::IsContiguous<Container>::value>>
     View(const Container &values) : data_(values.data()), size_(values.size()) {}
     const T *data() const noexcept { return data_; }
     std::size_t size() const noexcept { return size_; }
@@ -181,22 +188,21 @@ inline Motion at_rest(const Pose &pose) {
 // Returns the motion from one pose at time 0 to another at time `duration`, by the shortest rotation. `center` is the
 // point in the body's frame that moves on a straight line.
 inline Result<Motion> between(const Pose &start, const Pose &end, double duration, const Vector &center = {0, 0, 0}) {
-    Motion motion;
-    const rccd_status status = rccd_motion_between(&start, &end, center.data(), duration, &motion);
-    return detail::after(status, [&] { return motion; });
+    return detail::stored<Motion>(
+        [&](Motion *out) { return rccd_motion_between(&start, &end, center.data(), duration, out); });
 }
 
 #ifdef RIGID_CCD_HAS_EIGEN
 // Converts a pose of Eigen. Fails if its linear part is not a rotation, to within a millionth in each entry.
 inline Result<Pose> to_pose(const Eigen::Isometry3d &pose) {
     const Eigen::Matrix3d linear = pose.linear();
-    const Eigen::Matrix3d skew = linear.transpose() * linear - Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d deviation = linear.transpose() * linear - Eigen::Matrix3d::Identity();
     // The comparison is written so that NaN is an error.
-    if (!(skew.cwiseAbs().maxCoeff() <= 2e-6 && linear.determinant() > 0))
+    if (!(deviation.cwiseAbs().maxCoeff() <= 2e-6 && linear.determinant() > 0))
         return detail::fail<Pose>({RCCD_STATUS_INVALID_ARGUMENT, "the linear part of a pose is no rotation"});
-    const Eigen::Quaterniond turned(linear);
-    const auto &at = pose.translation();
-    return Pose{{at.x(), at.y(), at.z()}, {turned.x(), turned.y(), turned.z(), turned.w()}};
+    const Eigen::Quaterniond rotation(linear);
+    const auto &position = pose.translation();
+    return Pose{{position.x(), position.y(), position.z()}, {rotation.x(), rotation.y(), rotation.z(), rotation.w()}};
 }
 #endif
 
@@ -209,8 +215,8 @@ public:
     static Result<Body> capsule(double radius, double half_height) {
         return make([&](rccd_body **out) { return rccd_body_capsule(radius, half_height, out); });
     }
-    static Result<Body> box(const Vector &half) {
-        return make([&](rccd_body **out) { return rccd_body_box(half[0], half[1], half[2], out); });
+    static Result<Body> box(const Vector &half_extents) {
+        return make([&](rccd_body **out) { return rccd_body_box(half_extents[0], half_extents[1], half_extents[2], out); });
     }
     static Result<Body> cylinder(double radius, double half_height) {
         return make([&](rccd_body **out) { return rccd_body_cylinder(radius, half_height, out); });
@@ -237,11 +243,9 @@ public:
         return make([&](rccd_body **out) { return rccd_body_load(detail::c_text(path), out); });
     }
     Result<std::size_t> piece_count() const {
-        std::size_t count = 0;
-        const rccd_status status = rccd_body_piece_count(get(), &count);
-        return detail::after(status, [&] { return count; });
+        return detail::stored<std::size_t>([&](std::size_t *out) { return rccd_body_piece_count(get(), out); });
     }
-    // Returns whether the body is solid. If not, it is a surface: something inside does not touch it.
+    // Returns whether the body is solid. Otherwise it is a surface, and a body inside it does not touch it.
     Result<bool> is_solid() const {
         std::int32_t solid = 0;
         const rccd_status status = rccd_body_is_solid(get(), &solid);
@@ -249,9 +253,7 @@ public:
     }
     // Returns an upper bound of how far the body extends beyond the shape that it represents.
     Result<double> excess() const {
-        double excess = 0;
-        const rccd_status status = rccd_body_excess(get(), &excess);
-        return detail::after(status, [&] { return excess; });
+        return detail::stored<double>([&](double *out) { return rccd_body_excess(get(), out); });
     }
     // Takes ownership of a handle.
     explicit Body(rccd_body *handle) : handle_(handle, rccd_body_free) {}
@@ -288,22 +290,22 @@ public:
         });
     }
     // Makes the trajectory of a body whose origin follows the Bézier curve of these control points.
-    static Result<Trajectory> bezier(View<Vector> points, double duration, const rccd_rotations *turns = nullptr) {
+    static Result<Trajectory> bezier(View<Vector> points, double duration, const rccd_rotations *rotations = nullptr) {
         const double *numbers = points.size() ? points.data()->data() : nullptr;
         return make([&](rccd_trajectory **out) {
-            return rccd_trajectory_bezier(numbers, points.size(), duration, turns, out);
+            return rccd_trajectory_bezier(numbers, points.size(), duration, rotations, out);
         });
     }
     // Makes the trajectory of a body whose origin follows the uniform cubic B-spline of these control points.
-    static Result<Trajectory> b_spline(View<Vector> points, double duration, const rccd_rotations *turns = nullptr) {
+    static Result<Trajectory> b_spline(View<Vector> points, double duration, const rccd_rotations *rotations = nullptr) {
         const double *numbers = points.size() ? points.data()->data() : nullptr;
         return make([&](rccd_trajectory **out) {
-            return rccd_trajectory_b_spline(numbers, points.size(), duration, turns, out);
+            return rccd_trajectory_b_spline(numbers, points.size(), duration, rotations, out);
         });
     }
     // Takes ownership of a handle.
     explicit Trajectory(rccd_trajectory *handle) : handle_(handle, rccd_trajectory_free) {}
-    // Moving copies: a moved-from object without a trajectory would be static.
+    // There are no move operations, so that moving copies: a moved-from object without a handle would be static.
     Trajectory(const Trajectory &) = default;
     Trajectory &operator=(const Trajectory &) = default;
     const rccd_trajectory *get() const noexcept { return handle_.get(); }
@@ -316,25 +318,25 @@ private:
     std::shared_ptr<const rccd_trajectory> handle_;
 };
 
-// A body with a motion or a trajectory. With neither, the body is static at the origin. Shares ownership of the body and
-// of the trajectory.
+// A body with a motion or a trajectory. With neither, the body is static at the origin. It shares ownership of the body
+// and the trajectory.
 class MovingBody {
 public:
     MovingBody(const Body &body) : body_(body) {}
     MovingBody(const Body &body, const Motion &motion) : body_(body), motion_(motion) {}
-    MovingBody(const Body &body, const Trajectory &along) : body_(body), along_(along) {}
-    // Returns the argument of a call in C. It points into this object. If the trajectory has lost its handle, the body is
-    // null too, which the call refuses.
+    MovingBody(const Body &body, const Trajectory &trajectory) : body_(body), trajectory_(trajectory) {}
+    // Returns the argument for a call in C, with pointers into this object. If the trajectory has lost its handle, the body
+    // is null too, and the call fails.
     rccd_moving_body get() const noexcept {
-        const rccd_trajectory *along = along_ ? along_->get() : nullptr;
-        const bool lost = along_ && along == nullptr;
-        return {lost ? nullptr : body_.get(), motion_ ? &*motion_ : nullptr, along};
+        const rccd_trajectory *trajectory = trajectory_ ? trajectory_->get() : nullptr;
+        const bool is_lost = trajectory_ && trajectory == nullptr;
+        return {is_lost ? nullptr : body_.get(), motion_ ? &*motion_ : nullptr, trajectory};
     }
 
 private:
     Body body_;
     std::optional<Motion> motion_;
-    std::optional<Trajectory> along_;
+    std::optional<Trajectory> trajectory_;
 };
 
 // An answer, with the fields of rccd_answer.
@@ -364,7 +366,7 @@ public:
     static Result<Stop> make() { return detail::hold<Stop, rccd_stop>(rccd_stop_new); }
     // Takes ownership of a handle.
     explicit Stop(rccd_stop *handle) : handle_(handle, rccd_stop_free) {}
-    // Moving copies: a moved-from object without a flag would stop nothing.
+    // There are no move operations, so that moving copies: a moved-from object without a handle would stop nothing.
     Stop(const Stop &) = default;
     Stop &operator=(const Stop &) = default;
     void set() const noexcept { rccd_stop_set(get()); }
@@ -375,7 +377,7 @@ private:
     std::shared_ptr<const rccd_stop> handle_;
 };
 
-// A solver: settings, and memory that is reused between queries. Each thread needs its own.
+// A solver: settings, and memory that is reused between queries. Each thread needs a solver of its own.
 class Solver {
 public:
     static Result<Solver> make(const Settings &settings = {}) {
@@ -401,26 +403,24 @@ public:
     Result<Answer> contact_interval(const MovingBody &a, const MovingBody &b, double duration) {
         return ask(rccd_contact_interval, a, b, duration);
     }
-    // Computes bounds of the least distance. With a duration of 0, that is the distance at the start.
+    // Computes bounds of the least distance. With a duration of 0, it is the distance at the start.
     Result<Answer> closest_approach(const MovingBody &a, const MovingBody &b, double duration) {
         return ask(rccd_closest_approach, a, b, duration);
     }
     // Decides whether the bodies always keep a distance of at least `clearance`.
     Result<Answer> keeps_clearance(const MovingBody &a, const MovingBody &b, double duration, double clearance) {
-        Answer answer;
         const rccd_moving_body moving_a = a.get(), moving_b = b.get();
-        const rccd_status status =
-            rccd_keeps_clearance(handle_.get(), &moving_a, &moving_b, duration, clearance, &answer);
-        return detail::after(status, [&] { return answer; });
+        return detail::stored<Answer>([&](Answer *out) {
+            return rccd_keeps_clearance(handle_.get(), &moving_a, &moving_b, duration, clearance, out);
+        });
     }
 
 private:
     template <typename Question>
     Result<Answer> ask(Question question, const MovingBody &a, const MovingBody &b, double duration) {
-        Answer answer;
         const rccd_moving_body moving_a = a.get(), moving_b = b.get();
-        const rccd_status status = question(handle_.get(), &moving_a, &moving_b, duration, &answer);
-        return detail::after(status, [&] { return answer; });
+        return detail::stored<Answer>(
+            [&](Answer *out) { return question(handle_.get(), &moving_a, &moving_b, duration, out); });
     }
     std::unique_ptr<rccd_solver, void (*)(rccd_solver *)> handle_;
 };

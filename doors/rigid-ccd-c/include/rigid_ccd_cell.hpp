@@ -1,5 +1,5 @@
-// Robots among obstacles, for C++17: checks the edges of planners and the motions of controllers. This header is a
-// wrapper around rigid_ccd.h, and needs rigid_ccd.hpp.
+// Robots among obstacles, for C++17. Checks edges of motion planners and motions of controllers. This header wraps
+// rigid_ccd.h, and needs rigid_ccd.hpp.
 #ifndef RIGID_CCD_CELL_HPP
 #define RIGID_CCD_CELL_HPP
 
@@ -16,11 +16,11 @@ inline namespace RIGID_CCD_FAILURES {
 
 namespace detail {
 
-// Returns the error for an array whose length is not a multiple of `length`: the number of joints, or twice that for
-// edges.
-inline Error wrong_configurations(std::size_t length, std::size_t given) {
+// Returns the error for an array of `count` numbers, if that is not a multiple of `length`. `length` is the number of
+// joints for a path, and twice the number of joints for edges.
+inline Error wrong_configurations(std::size_t length, std::size_t count) {
     return {RCCD_STATUS_INVALID_ARGUMENT, "configurations: a multiple of " + std::to_string(length) + " numbers is needed, not " +
-                                              std::to_string(given)};
+                                              std::to_string(count)};
 }
 
 } // namespace detail
@@ -44,8 +44,8 @@ public:
             return rccd_cell_load(detail::c_text(robot), or_null(srdf), or_null(package_folder), out);
         });
     }
-    // Makes a cell from the text of a URDF or MJCF. Relative names of meshes are resolved in `folder`, or in the working
-    // folder if it is empty.
+    // Makes a cell from the text of a URDF or MJCF. Relative paths of meshes are resolved in `folder`, or in the working
+    // directory if it is empty.
     static Result<Cell> from_text(const std::string &robot, const std::string &folder = "", const std::string &srdf = "",
                                   const std::string &package_folder = "") {
         if (detail::has_zero(folder) || detail::has_zero(srdf) || detail::has_zero(package_folder)) return zero_in_path();
@@ -85,23 +85,23 @@ public:
     // obstacles.
     Result<Done> attach(const std::string &name, const Body &body, const std::string &link, const Pose &pose,
                         const std::vector<std::string> &may_touch = {}) {
-        std::vector<const char *> links;
-        for (const std::string &touched : may_touch) links.push_back(detail::c_text(touched));
+        std::vector<const char *> names;
+        for (const std::string &item : may_touch) names.push_back(detail::c_text(item));
         return detail::done(rccd_cell_attach(handle_.get(), detail::c_text(name), body.get(), detail::c_text(link), &pose,
-                                             links.data(), links.size()));
+                                             names.data(), names.size()));
     }
     Result<Done> detach(const std::string &name) { return detail::done(rccd_cell_detach(handle_.get(), detail::c_text(name))); }
-    // Allows two items to touch. An item is a link, an attached body or an obstacle. The permission ends when one of them is
-    // removed.
+    // Allows two items to touch. An item is a link, an attached body or an obstacle. The permission lasts until one of them
+    // is removed, or until forbid_contact or set_clearance is called for them.
     Result<Done> allow_contact(const std::string &a, const std::string &b) {
         return detail::done(rccd_cell_allow_contact(handle_.get(), detail::c_text(a), detail::c_text(b)));
     }
-    // Checks two items again that were allowed to touch, or checks two links that were not checked before.
+    // Revokes the permission of two items to touch. For two links that are not checked, adds them to the checked pairs.
     Result<Done> forbid_contact(const std::string &a, const std::string &b) {
         return detail::done(rccd_cell_forbid_contact(handle_.get(), detail::c_text(a), detail::c_text(b)));
     }
-    // Returns a summary of what is checked, as lines: counts, then all remarks. Lines about probable mistakes begin with
-    // `warning: `.
+    // Returns a summary of the checked pairs, as lines of text: counts, then all remarks. Lines about probable mistakes
+    // begin with `warning: `.
     Result<std::string> check_summary() {
         rccd_text text{};
         const rccd_status status = rccd_cell_check_summary(handle_.get(), &text);
@@ -119,7 +119,7 @@ public:
 
 private:
     static Result<Cell> zero_in_path() {
-        return detail::fail<Cell>({RCCD_STATUS_INVALID_ARGUMENT, "the path of a file or folder has a zero in it"});
+        return detail::fail<Cell>({RCCD_STATUS_INVALID_ARGUMENT, "the path of a file or folder contains a zero byte"});
     }
     static const char *or_null(const std::string &text) { return text.empty() ? nullptr : text.c_str(); }
     std::unique_ptr<rccd_cell, void (*)(rccd_cell *)> handle_;
@@ -128,8 +128,8 @@ private:
 // A curve in joint space: joints follow polynomials in time. Copies share it, and so may threads.
 class JointCurve {
 public:
-    // Makes a curve through configurations at ascending times, with given velocities. Arrays hold the values of one
-    // configuration after the other. Segments are cubic polynomials, or quintic ones if accelerations are given.
+    // Makes a curve through configurations at ascending times, with the velocities at those times. Each array has the
+    // values of one configuration after another. Segments are cubic polynomials, or quintic ones with accelerations.
     static Result<JointCurve> through(View<double> times, View<double> positions, View<double> velocities,
                                       View<double> accelerations = {}) {
         const std::size_t joints = times.size() ? positions.size() / times.size() : 0;
@@ -142,8 +142,8 @@ public:
         if (accelerations.size() != 0 && accelerations.size() != total)
             return detail::fail<JointCurve>(detail::wrong_count("accelerations", total, accelerations.size()));
         return detail::hold<JointCurve, rccd_joint_curve>([&](rccd_joint_curve **out) {
-            const double *const given = accelerations.size() ? accelerations.data() : nullptr;
-            return rccd_joint_curve_through(times.data(), positions.data(), velocities.data(), given, times.size(),
+            const double *const accelerations_or_null = accelerations.size() ? accelerations.data() : nullptr;
+            return rccd_joint_curve_through(times.data(), positions.data(), velocities.data(), accelerations_or_null, times.size(),
                                             joints, out);
         });
     }
@@ -170,7 +170,7 @@ private:
     }
 };
 
-// The certified free part of an edge. Names of functions are those of Drake's EdgeMeasure.
+// The part of an edge that is certified free. The functions have the names of Drake's EdgeMeasure.
 class EdgeMeasure {
 public:
     explicit EdgeMeasure(double alpha) : alpha_(alpha) {}
@@ -184,7 +184,7 @@ private:
     double alpha_;
 };
 
-// A solver for paths in a cell. It reuses memory between questions. Each thread needs its own.
+// A solver for paths in a cell. It reuses memory between questions. Each thread needs a solver of its own.
 class CellSolver {
 public:
     static Result<CellSolver> make(const Cell &cell, const Settings &settings = {}) {
@@ -201,13 +201,13 @@ public:
     Result<Done> set_settings(const Settings &settings) {
         return detail::done(rccd_cell_solver_set_settings(handle_.get(), &settings));
     }
-    // Finds the first contact on a path. A path is an array of configurations, one after the other, or a curve.
+    // Finds the first contact on a path: an array with one configuration after another, or a curve.
     Result<PathAnswer> first_contact(View<double> configurations) { return ask(rccd_cell_first_contact, configurations); }
     Result<PathAnswer> first_contact(const JointCurve &curve) { return ask(rccd_cell_first_contact, curve); }
     // Finds some contact on a path, not necessarily the first one, or proves that there is none.
     Result<PathAnswer> any_contact(View<double> configurations) { return ask(rccd_cell_any_contact, configurations); }
     Result<PathAnswer> any_contact(const JointCurve &curve) { return ask(rccd_cell_any_contact, curve); }
-    // Computes bounds of the least distance of any pair on a path.
+    // Computes bounds of the least distance of all checked pairs on a path.
     Result<PathAnswer> closest_approach(View<double> configurations) {
         return ask(rccd_cell_closest_approach, configurations);
     }
@@ -242,16 +242,14 @@ private:
     }
     template <typename Question>
     Result<PathAnswer> ask(Question question, const rccd_path &path) {
-        PathAnswer answer;
-        const rccd_status status = question(handle_.get(), &path, &answer);
-        return detail::after(status, [&] { return answer; });
+        return detail::stored<PathAnswer>([&](PathAnswer *out) { return question(handle_.get(), &path, out); });
     }
     std::unique_ptr<rccd_cell_solver, void (*)(rccd_cell_solver *)> handle_;
     std::size_t joint_count_;
     std::vector<double> edge_;
 };
 
-// Writes a record of an answer to `first_contact` to a file. `ccd replay` repeats the question.
+// Writes an answer of `first_contact` and its question to a file. `ccd replay` repeats the question.
 inline Result<Done> write_evidence(const Cell &cell, const Settings &settings, View<double> configurations,
                                    const PathAnswer &answer, const std::string &file) {
     const std::size_t joints = cell.joint_count(), count = joints ? configurations.size() / joints : 0;
@@ -267,8 +265,8 @@ inline Result<Done> write_evidence(const Cell &cell, const Settings &settings, c
 }
 
 #ifndef RIGID_CCD_EXPECTED
-// A pool of solvers of one cell, for planners with many threads: each call borrows a solver. Do not change the cell while
-// the pool lives.
+// A pool of solvers for one cell, for planners with many threads. Each call borrows a solver. Do not change the cell
+// during the lifetime of the pool.
 class SolverPool {
 public:
     explicit SolverPool(const Cell &cell, const Settings &settings = {}) : cell_(cell), settings_(settings) {}
@@ -282,8 +280,8 @@ public:
         return call(loan.solver);
     }
 
-    // Measures edges on several threads. `edges` holds the start and the end configuration of each edge, one after the
-    // other. If the system cannot start all threads, fewer do the work.
+    // Measures edges on several threads. `edges` has the start and the end configuration of each edge, one edge after
+    // another. If the system cannot start all threads, fewer threads measure the edges.
     std::vector<EdgeMeasure> measure_edges(View<double> edges, unsigned thread_count) {
         const std::size_t joints = cell_.joint_count(), count = joints ? edges.size() / (2 * joints) : 0;
         if (edges.size() != 2 * joints * count) throw detail::wrong_configurations(2 * joints, edges.size());
@@ -318,27 +316,27 @@ public:
 
 private:
     struct Loan {
-        explicit Loan(SolverPool &from) : pool(from), solver(from.take()) {}
+        explicit Loan(SolverPool &owner) : pool(owner), solver(owner.take()) {}
         Loan(const Loan &) = delete;
         Loan &operator=(const Loan &) = delete;
         ~Loan() {
             const std::lock_guard<std::mutex> lock(pool.mutex_);
-            pool.spare_.push_back(std::move(solver));
+            pool.idle_solvers_.push_back(std::move(solver));
         }
         SolverPool &pool;
         CellSolver solver;
     };
     CellSolver take() {
         const std::lock_guard<std::mutex> lock(mutex_);
-        if (spare_.empty()) return CellSolver(cell_, settings_);
-        CellSolver solver = std::move(spare_.back());
-        spare_.pop_back();
+        if (idle_solvers_.empty()) return CellSolver(cell_, settings_);
+        CellSolver solver = std::move(idle_solvers_.back());
+        idle_solvers_.pop_back();
         return solver;
     }
     const Cell &cell_;
     Settings settings_;
     std::mutex mutex_;
-    std::vector<CellSolver> spare_;
+    std::vector<CellSolver> idle_solvers_;
 };
 #endif
 

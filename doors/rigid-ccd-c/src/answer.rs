@@ -11,8 +11,8 @@ use rigid_ccd_robot::PathOutcome;
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RccdOutcome {
-    /// A limit was reached first. Nothing touches until `safe_until`. The value is 0, so that an answer of zeros that no
-    /// call has filled proves nothing.
+    /// A limit was reached before the query was decided. Nothing touches until `safe_until`. The value is 0, so that an
+    /// answer of zeros, which no call has filled, is unresolved.
     Unresolved = 0,
     /// The bodies stay apart over the whole duration.
     Free = 1,
@@ -44,7 +44,7 @@ pub enum RccdLimit {
     Stalled = 4,
     /// The oracle could not compute the distance of two pieces.
     OracleGaveUp = 5,
-    /// Because of rounding it is undecided whether the bodies overlap at the start.
+    /// Rounding leaves it undecided whether the bodies overlap at the start.
     OverlapUndecided = 6,
     /// A limit without a name in this interface.
     Other = 255,
@@ -58,16 +58,16 @@ pub struct RccdAnswer {
     pub size: usize,
     /// The outcome of the query.
     pub outcome: RccdOutcome,
-    /// The limit that ended the query. It is also set if the outcome was already certain.
+    /// The limit that ended the query, even if the outcome was already certain.
     pub limit: RccdLimit,
-    /// The time of the contact, or of the least distance found.
+    /// The time of the contact, or the time at which the least distance was found.
     pub time: f64,
     /// The time of the last contact of an interval.
     pub last_time: f64,
-    /// The time until which nothing touches: the duration if the bodies stay free, the time of a first contact, or the
-    /// time proven free before a limit.
+    /// The time until which nothing touches: the duration if the bodies stay apart, the time of a first contact, or the
+    /// time that was proven before a limit.
     pub safe_until: f64,
-    /// A lower bound of the requested distance; for contacts, of the distance at all times.
+    /// A lower bound of the requested distance. For questions about contacts it holds at all times.
     pub lower: f64,
     /// An upper bound of the same distance; infinity if none is known.
     pub upper: f64,
@@ -81,7 +81,7 @@ pub struct RccdAnswer {
     pub feature_a: RccdFeature,
     /// The feature of the second body that is in contact.
     pub feature_b: RccdFeature,
-    /// For contacts, the largest distance beyond the margin at which one is reported; for distances, their accuracy.
+    /// For contacts, the largest distance beyond the margin at which one is reported. For distances, their accuracy.
     pub tolerance: f64,
     /// The number of visits that the query took, in the unit of the budget.
     pub work: u64,
@@ -99,17 +99,10 @@ impl RccdOutcome {
 }
 
 impl RccdLimit {
-    /// Returns the name of a limit from its value in C, as Rust displays it.
+    /// Returns the name of the limit with a value in C.
     pub(crate) fn name_of(number: i32) -> String {
-        let limits = [
-            Limit::Budget,
-            Limit::Deadline,
-            Limit::Stopped,
-            Limit::Stalled,
-            Limit::OracleGaveUp,
-            Limit::OverlapUndecided,
-        ];
-        let limit = (limits.into_iter()).find(|&limit| RccdLimit::from(limit) as i32 == number);
+        let mut limits = Limit::ALL.into_iter();
+        let limit = limits.find(|&limit| RccdLimit::from(limit) as i32 == number);
         limit.map_or_else(|| format!("limit {number}"), |limit| limit.to_string())
     }
 }
@@ -120,32 +113,32 @@ unsafe impl Growing for RccdAnswer {
 }
 
 impl RccdAnswer {
-    /// Converts the answer to the question whether bodies keep a clearance.
+    /// Converts an answer about the least distance to an answer about a clearance.
     pub(crate) fn about_clearance(answer: &Answer, duration: f64, clearance: f64) -> Self {
-        let measured = RccdAnswer::new(answer, duration);
+        let distance_answer = RccdAnswer::new(answer, duration);
         match answer.outcome.clearance_verdict(clearance) {
             ClearanceVerdict::Kept => RccdAnswer {
                 outcome: RccdOutcome::Free,
                 safe_until: duration,
-                ..measured
+                ..distance_answer
             },
             ClearanceVerdict::Violated
                 if matches!(
-                    measured.outcome,
+                    distance_answer.outcome,
                     RccdOutcome::LeastDistance | RccdOutcome::Unresolved
                 ) =>
             {
                 RccdAnswer {
                     outcome: RccdOutcome::Contact,
-                    safe_until: lesser(measured.safe_until, measured.time),
-                    ..measured
+                    safe_until: lesser(distance_answer.safe_until, distance_answer.time),
+                    ..distance_answer
                 }
             }
-            ClearanceVerdict::Violated | ClearanceVerdict::Unverified => measured,
+            ClearanceVerdict::Violated | ClearanceVerdict::Unverified => distance_answer,
         }
     }
 
-    /// Converts the answer to a query from time 0 to `duration`.
+    /// Converts an answer to a query from time 0 to `duration`.
     pub(crate) fn new(answer: &Answer, duration: f64) -> Self {
         let outcome = &answer.outcome;
         let (kind, safe_until) = kind_and_safe_until(outcome, duration);
@@ -161,11 +154,11 @@ impl RccdAnswer {
                 ..
             })) => (
                 separation.normal.to_array(),
-                [separation.witness_a, separation.witness_b].map(|at| at.to_array()),
+                [separation.witness_a, separation.witness_b].map(|witness| witness.to_array()),
                 [feature_a, feature_b].map(RccdFeature::from),
             ),
             Ok(None) => ([f64::NAN; 3], [[f64::NAN; 3]; 2], [RccdFeature::NONE; 2]),
-            Err(inside) => ([f64::NAN; 3], [inside; 2], [RccdFeature::NONE; 2]),
+            Err(common_point) => ([f64::NAN; 3], [common_point; 2], [RccdFeature::NONE; 2]),
         };
         RccdAnswer {
             size: size_of::<RccdAnswer>(),

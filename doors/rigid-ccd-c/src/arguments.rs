@@ -13,7 +13,7 @@ pub(crate) unsafe fn reference<'a, T>(name: &str, pointer: *const T) -> Result<&
     unsafe { pointer.as_ref() }.ok_or_else(|| null(name))
 }
 
-/// Returns mutable access to the value that a pointer points to.
+/// Returns a mutable reference to the value that a pointer points to.
 ///
 /// # Safety
 /// The pointer is null, or points to a value that nobody else uses during the call.
@@ -41,12 +41,12 @@ pub(crate) unsafe fn array<'a, T>(
     check_aligned(name, pointer)?;
     let bytes = count.checked_mul(size_of::<T>());
     if bytes.is_none_or(|bytes| bytes > isize::MAX as usize) {
-        let length = size_of::<T>();
+        let size = size_of::<T>();
         return Err(Failure::argument(format!(
-            "{name} is too long: {count} elements of {length} bytes"
+            "{name} is too long: {count} elements of {size} bytes"
         )));
     }
-    // SAFETY: the caller's contract; the array is aligned and not longer than memory.
+    // SAFETY: the caller's contract; the array is aligned, and its size fits into `isize`.
     Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
 }
 
@@ -84,7 +84,7 @@ pub(crate) unsafe fn text_or_none<'a>(
 /// # Safety
 /// `out` is null, or points to memory for a handle.
 pub(crate) unsafe fn give<T>(out: *mut *mut T, value: T) -> Result<(), Failure> {
-    check_place("the place for the result", out)?;
+    check_output("out", out)?;
     // SAFETY: the caller's contract; `out` is neither null nor misaligned.
     unsafe { out.write(Box::into_raw(Box::new(value))) };
     Ok(())
@@ -95,7 +95,7 @@ pub(crate) unsafe fn give<T>(out: *mut *mut T, value: T) -> Result<(), Failure> 
 /// # Safety
 /// `out` is null, or points to memory for the value.
 pub(crate) unsafe fn store<T>(name: &str, out: *mut T, value: T) -> Result<(), Failure> {
-    check_place(name, out)?;
+    check_output(name, out)?;
     // SAFETY: the caller's contract; `out` is neither null nor misaligned.
     unsafe { out.write(value) };
     Ok(())
@@ -112,8 +112,8 @@ pub(crate) unsafe fn free<T>(handle: *mut T) {
     }
 }
 
-/// Returns an error for a pointer that is null or not aligned.
-pub(crate) fn check_place<T>(name: &str, out: *mut T) -> Result<(), Failure> {
+/// Checks that a pointer for output is aligned and not null.
+pub(crate) fn check_output<T>(name: &str, out: *mut T) -> Result<(), Failure> {
     if out.is_null() {
         return Err(null(name));
     }

@@ -11,12 +11,12 @@ use std::sync::Arc;
 /// A body: a rigid shape. Many queries and threads may share it.
 pub struct RccdBody(pub(crate) Arc<Body>);
 
-/// The way in which triangles in arrays are represented by convex pieces.
+/// The convex pieces that represent triangles in arrays.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RccdPieces {
-    /// The fewest pieces that represent the mesh exactly: one hull for a convex solid, else patches or triangles,
-    /// whichever are faster.
+    /// The fewest pieces that represent the mesh exactly: one hull for a convex solid, and otherwise patches or
+    /// triangles, whichever are faster.
     Auto = 0,
     /// One piece for each triangle. A closed mesh is solid.
     Triangles = 1,
@@ -50,7 +50,7 @@ pub unsafe extern "C" fn rccd_body_capsule(
     unsafe { give_shape(Body::capsule(radius, half_height), out) }
 }
 
-/// Makes a box around the origin. The arguments are half of its lengths along x, y and z.
+/// Makes a box around the origin. The arguments are half extents along x, y and z.
 ///
 /// # Safety
 /// `out` is null, or points to memory for a handle.
@@ -65,7 +65,7 @@ pub unsafe extern "C" fn rccd_body_box(
     unsafe { give_shape(Body::cuboid([half_x, half_y, half_z]), out) }
 }
 
-/// Makes a cylinder along z. It is represented by a polytope that encloses it; bounds in answers account for the excess.
+/// Makes a cylinder along z. It is represented by a polytope that encloses it. Bounds in answers account for its excess.
 ///
 /// # Safety
 /// `out` is null, or points to memory for a handle.
@@ -80,7 +80,7 @@ pub unsafe extern "C" fn rccd_body_cylinder(
 }
 
 /// Makes a cone along z, with its base at `−half_height` and its apex at `half_height`. It is represented by a polytope
-/// that encloses it; bounds in answers account for the excess.
+/// that encloses it. Bounds in answers account for its excess.
 ///
 /// # Safety
 /// `out` is null, or points to memory for a handle.
@@ -189,12 +189,12 @@ pub unsafe extern "C" fn rccd_body_piece_count(
         let body = unsafe { reference("body", body) }?;
         let count = body.0.pieces().len();
         // SAFETY: the contract of this function.
-        unsafe { store("the place for the number", out, count) }
+        unsafe { store("out", out, count) }
     })
 }
 
-/// Stores 1 if a body is solid, and 0 if it is a surface. Something inside a surface does not touch it. A mesh is solid
-/// if it is closed and its triangles are consistently oriented.
+/// Stores 1 if a body is solid, and 0 if it is a surface. A body inside a surface does not touch it. A mesh is solid if
+/// it is closed and its triangles are consistently oriented.
 ///
 /// # Safety
 /// `body` is null or a handle; `out` is null or points to memory for a number.
@@ -205,12 +205,12 @@ pub unsafe extern "C" fn rccd_body_is_solid(body: *const RccdBody, out: *mut i32
         let body = unsafe { reference("body", body) }?;
         let is_solid = i32::from(body.0.solidity() == Solidity::Solid);
         // SAFETY: the contract of this function.
-        unsafe { store("the place for the number", out, is_solid) }
+        unsafe { store("out", out, is_solid) }
     })
 }
 
-/// Stores an upper bound of how far a body extends beyond the shape that it represents. Only cylinders, cones and outer
-/// hulls do.
+/// Stores an upper bound of how far a body extends beyond the shape that it represents. The bound is 0 except for
+/// cylinders, cones and outer hulls.
 ///
 /// # Safety
 /// `body` is null or a handle; `out` is null or points to memory for a number.
@@ -221,7 +221,7 @@ pub unsafe extern "C" fn rccd_body_excess(body: *const RccdBody, out: *mut f64) 
         let body = unsafe { reference("body", body) }?;
         let excess = body.0.excess();
         // SAFETY: the contract of this function.
-        unsafe { store("the place for the number", out, excess) }
+        unsafe { store("out", out, excess) }
     })
 }
 

@@ -1,7 +1,7 @@
 //! Cells: a robot among obstacles, from URDF or MJCF files.
 
 use crate::arguments::{
-    array, check_place, exclusive, free, give, reference, store, text, text_or_none,
+    array, check_output, exclusive, free, give, reference, store, text, text_or_none,
 };
 use crate::body::RccdBody;
 use crate::motion::RccdPose;
@@ -13,17 +13,17 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A cell (planning scene): a robot among obstacles that are static in the frame of its base. Each obstacle and each
-/// attached body has a name of its own, different from the names of links. Changing the cell invalidates its solvers: their
-/// questions fail from then on. Making a new solver takes about 30 µs.
+/// A cell (planning scene): a robot among obstacles that are static in the frame of its base. The names of obstacles,
+/// attached bodies and links are all different. Changing the cell invalidates its solvers: their questions fail from then
+/// on. Making a new solver takes about 30 µs.
 pub struct RccdCell {
     pub(crate) cell: Arc<Cell>,
     /// The number of changes of the cell so far. Solvers share the counter, and so detect changes.
     pub(crate) changes: Arc<AtomicU64>,
-    /// The names of the joints that callers receive. Names inside `cell` do not live long enough: after a change of the
-    /// cell the old content is freed with its last solver.
+    /// The names of joints for callers. The names inside `cell` do not live long enough, because a change replaces `cell`,
+    /// and the old cell is freed with its last solver.
     joint_names: Vec<String>,
-    /// The last summary that a caller received.
+    /// The summary that the last call of `rccd_cell_check_summary` returned.
     check_summary: String,
 }
 
@@ -67,8 +67,8 @@ impl From<&str> for RccdText {
 
 /// Loads the robot of a URDF or MJCF file, with its meshes, as a cell without obstacles. All pairs of links are checked
 /// except neighbours, links that never move relative to each other, and pairs that the SRDF file disables. `srdf` may be
-/// null. `package_folder` is the folder searched first for `package://` names; it may be null. Meshes are used as they
-/// are. MuJoCo uses their convex hulls instead, so it finds contacts in concavities that are free here.
+/// null. `package_folder` is the folder searched first for `package://` names; it may be null. Meshes are exact.
+/// MuJoCo uses their convex hulls instead, so it finds contacts in concavities that are free here.
 ///
 /// # Safety
 /// Each text is null or ends with a zero; `out` is null or points to memory for a handle.
@@ -87,8 +87,8 @@ pub unsafe extern "C" fn rccd_cell_load(
     })
 }
 
-/// Makes a cell from the text of a URDF or MJCF, such as ROS's parameter `robot_description`. Relative names of meshes
-/// are resolved in `folder`, or in the working folder if it is null. The other arguments are those of `rccd_cell_load`.
+/// Makes a cell from the text of a URDF or MJCF, such as ROS's parameter `robot_description`. Relative paths of meshes
+/// are resolved in `folder`, or in the working directory if it is null. The other arguments are as for `rccd_cell_load`.
 ///
 /// # Safety
 /// Each text is null or ends with a zero; `out` is null or points to memory for a handle.
@@ -132,7 +132,7 @@ pub unsafe extern "C" fn rccd_cell_joint_count(
         // SAFETY: the contract of this function.
         let cell = unsafe { reference("cell", cell) }?;
         // SAFETY: the contract of this function.
-        unsafe { store("the place for the number", out, joint_count(&cell.cell)) }
+        unsafe { store("out", out, joint_count(&cell.cell)) }
     })
 }
 
@@ -155,17 +155,17 @@ pub unsafe extern "C" fn rccd_cell_joint(
             cell, joint_names, ..
         } = unsafe { reference("cell", cell) }?;
         let joint = joint_names.iter().zip(cell.robot().limits()).nth(number);
-        let Some((joint, [least, greatest])) = joint else {
+        let Some((joint_name, [least, greatest])) = joint else {
             return Err(Failure::argument(format!(
                 "there is no independent joint {number}"
             )));
         };
-        check_place("name", name)?;
-        check_place("lower", lower)?;
-        check_place("upper", upper)?;
+        check_output("name", name)?;
+        check_output("lower", lower)?;
+        check_output("upper", upper)?;
         // SAFETY: the contract of this function.
         unsafe {
-            store("name", name, joint.as_str().into())?;
+            store("name", name, joint_name.as_str().into())?;
             store("lower", lower, least)?;
             store("upper", upper, greatest)
         }
@@ -267,11 +267,12 @@ pub unsafe extern "C" fn rccd_cell_attach(
             )
         };
         // SAFETY: the contract of this function.
-        let links = unsafe { array("may_touch", may_touch, may_touch_count) }?.iter();
+        let names = unsafe { array("may_touch", may_touch, may_touch_count) }?.iter();
         // SAFETY: the contract of this function.
-        let links = links.map(|&link| unsafe { text("a name of may_touch", link) });
-        let links = links.collect::<Result<Vec<_>, _>>()?;
-        let attach = |cell: &mut Cell| cell.attach(name, Arc::clone(&body.0), (link, pose), &links);
+        let names = names.map(|&name| unsafe { text("a name of may_touch", name) });
+        let may_touch = names.collect::<Result<Vec<_>, _>>()?;
+        let attach =
+            |cell: &mut Cell| cell.attach(name, Arc::clone(&body.0), (link, pose), &may_touch);
         // SAFETY: the contract of this function.
         unsafe { change(cell, attach) }
     })
@@ -292,7 +293,8 @@ pub unsafe extern "C" fn rccd_cell_detach(cell: *mut RccdCell, name: *const c_ch
 }
 
 /// Allows two items to touch, even if they have a clearance. An item is a link, an attached body or an obstacle. The
-/// permission ends when one of them is removed, and by `rccd_cell_forbid_contact` and `rccd_cell_set_clearance`.
+/// permission lasts until one of them is removed, or until `rccd_cell_forbid_contact` or `rccd_cell_set_clearance` is
+/// called for them.
 ///
 /// # Safety
 /// `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.
@@ -306,7 +308,7 @@ pub unsafe extern "C" fn rccd_cell_allow_contact(
     unsafe { change_pair(cell, a, b, Cell::allow_contact) }
 }
 
-/// Checks two items again that were allowed to touch, or checks two links that were not checked before.
+/// Revokes the permission of two items to touch. For two links that are not checked, adds them to the checked pairs.
 ///
 /// # Safety
 /// As for `rccd_cell_allow_contact`.
@@ -323,7 +325,7 @@ pub unsafe extern "C" fn rccd_cell_forbid_contact(
 /// Stores a summary of the checked pairs of the cell, as lines of text: counts, then all remarks. A line that begins
 /// with `warning: ` reports a probable mistake, such as a size in another unit or the SRDF of another robot, or that
 /// most of the robot is not checked. The other lines list pairs and links that are not checked, with reasons. The text
-/// is valid until the next such call for the cell, or until the cell is freed.
+/// is valid until this function is called again for the cell, or until the cell is freed.
 ///
 /// # Safety
 /// `cell` is null or a handle that no other call uses; `out` is null or points to memory for a text.
@@ -333,7 +335,7 @@ pub unsafe extern "C" fn rccd_cell_check_summary(
     out: *mut RccdText,
 ) -> RccdStatus {
     status_of(|| {
-        check_place("the place for the text", out)?;
+        check_output("out", out)?;
         // SAFETY: the contract of this function.
         let RccdCell {
             cell,
@@ -346,7 +348,7 @@ pub unsafe extern "C" fn rccd_cell_check_summary(
             check_summary.push_str(&format!("\n{kind}{remark}"));
         }
         // SAFETY: the contract of this function.
-        unsafe { store("the place for the text", out, check_summary.as_str().into()) }
+        unsafe { store("out", out, check_summary.as_str().into()) }
     })
 }
 
@@ -369,8 +371,9 @@ pub unsafe extern "C" fn rccd_cell_set_padding(
     })
 }
 
-/// Sets the distance at which two items count as touching. It replaces margin and paddings for this pair of links, attached
-/// bodies or obstacles. The pair is checked from now on, even if it was not checked or was allowed to touch.
+/// Sets the distance at which two items count as touching. For this pair it replaces the margin and paddings. An item is
+/// a link, an attached body or an obstacle. The pair is checked from now on, even if it was not checked or was allowed to
+/// touch.
 ///
 /// # Safety
 /// `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.
@@ -385,7 +388,7 @@ pub unsafe extern "C" fn rccd_cell_set_clearance(
     unsafe { change_pair(cell, a, b, |cell, pair| cell.set_clearance(pair, distance)) }
 }
 
-/// Changes the rule for a pair of items.
+/// Changes whether, or at what distance, a pair of items is checked.
 ///
 /// # Safety
 /// As for [`rccd_cell_allow_contact`].
@@ -398,12 +401,12 @@ unsafe fn change_pair(
     status_of(|| {
         // SAFETY: the contract of this function.
         let (a, b) = unsafe { (text("a", a)?, text("b", b)?) };
-        let set = |cell: &mut Cell| {
+        let change_named = |cell: &mut Cell| {
             let pair = [cell.item_named(a)?, cell.item_named(b)?];
             change_cell(cell, pair)
         };
         // SAFETY: the contract of this function.
-        unsafe { change(cell, set) }
+        unsafe { change(cell, change_named) }
     })
 }
 
@@ -411,12 +414,12 @@ pub(crate) fn joint_count(cell: &Cell) -> usize {
     cell.robot().independent_joint_names().len()
 }
 
-/// Reads a robot and the pairs of links to check, and stores a cell of them.
+/// Reads a robot and the pairs of links to check, and stores a cell without obstacles.
 ///
 /// # Safety
 /// Each text is null or ends with a zero; `out` is null or points to memory for a handle.
 unsafe fn give_cell(
-    mut robot: RobotFile,
+    mut file: RobotFile,
     srdf: *const c_char,
     package_folder: *const c_char,
     out: *mut *mut RccdCell,
@@ -429,15 +432,15 @@ unsafe fn give_cell(
         )
     };
     if let Some(folder) = folder {
-        robot = robot.with_package_folder(folder);
+        file = file.with_package_folder(folder);
     }
-    let read = robot.read().map_err(Failure::body)?;
-    let pairs = robot.link_pairs(&read, srdf.map(Path::new));
+    let robot = file.read().map_err(Failure::body)?;
+    let pairs = file.link_pairs(&robot, srdf.map(Path::new));
     let pairs = pairs.map_err(Failure::body)?;
     let cell = RccdCell {
-        joint_names: read.independent_joint_names().map(str::to_owned).collect(),
+        joint_names: robot.independent_joint_names().map(str::to_owned).collect(),
         check_summary: String::new(),
-        cell: Arc::new(Cell::new(read, pairs)),
+        cell: Arc::new(Cell::new(robot, pairs)),
         changes: Arc::default(),
     };
     // SAFETY: the contract of this function.

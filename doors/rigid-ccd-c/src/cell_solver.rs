@@ -13,24 +13,25 @@ use rigid_ccd_robot::{Cell, CellSolver, Path};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A solver for paths in a cell. After a change of the cell its questions fail. It reuses memory between questions. Each
-/// thread needs its own.
+/// A solver for paths in a cell. It reuses memory between questions. Each thread needs a solver of its own. After a change
+/// of the cell, all questions to the solver fail.
 pub struct RccdCellSolver {
     /// Borrows `cell`. As the first field it is dropped before `cell`.
     solver: CellSolver<'static>,
     cell: Arc<Cell>,
-    /// The number of changes of the cell; `made_at` is that number when the solver was made.
+    /// The number of changes of the cell so far.
     changes: Arc<AtomicU64>,
-    made_at: u64,
+    /// The number of changes when the solver was made.
+    changes_before: u64,
     path: PathMemory,
 }
 
 /// Makes a solver for a cell. If `settings` is null, it uses the defaults. The margin is the distance at which bodies
-/// count as touching. The deadline is for a whole question. A cell without a pair to check is an error: links that a
-/// joint connects are checked only if `rccd_cell_set_clearance` names them. `contact_normals` has no effect.
+/// count as touching. The deadline is for a whole question. A cell without a pair to check is an error: links that are
+/// connected by a joint are not checked, unless `rccd_cell_set_clearance` is called for them. `contact_normals` has no effect.
 ///
 /// With the start policy `RCCD_START_POLICY_LEAVE`, pairs in contact at the start may separate or slide, but not come
-/// nearer. This is for questions about the first or any contact. `rccd_cell_closest_approach` is an error with it.
+/// nearer. This applies to questions about the first or any contact. `rccd_cell_closest_approach` fails with this policy.
 ///
 /// # Safety
 /// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `out` is null
@@ -56,7 +57,7 @@ pub unsafe extern "C" fn rccd_cell_solver_new(
         let solver = RccdCellSolver {
             solver,
             cell,
-            made_at: changes.load(Ordering::Acquire),
+            changes_before: changes.load(Ordering::Acquire),
             changes,
             path: PathMemory::default(),
         };
@@ -127,8 +128,8 @@ pub unsafe extern "C" fn rccd_cell_any_contact(
     unsafe { ask(Question::AnyContact, solver, path, answer) }
 }
 
-/// Computes bounds of the least distance of any pair on a path, to within the tolerance. Margin, paddings and clearances
-/// have no effect.
+/// Computes bounds of the least distance of all checked pairs on a path, to within the tolerance. The margin, paddings and
+/// clearances have no effect.
 ///
 /// # Safety
 /// As for `rccd_cell_first_contact`.
@@ -158,16 +159,16 @@ unsafe fn ask(
             solver,
             cell,
             changes,
-            made_at,
+            changes_before,
             path: memory,
         } = unsafe { exclusive("solver", solver) }?;
-        if changes.load(Ordering::Acquire) != *made_at {
+        if changes.load(Ordering::Acquire) != *changes_before {
             return Err(Failure::input(
                 "the cell was changed after the solver was made: make a new solver",
             ));
         }
         // SAFETY: the contract of this function.
-        let size = unsafe { growing::size_of_place("the answer", out) }?;
+        let size = unsafe { growing::caller_size("the answer", out) }?;
         let call = |path: &dyn Path| {
             let answer = solver.answer(question, path).map_err(Failure::input)?;
             Ok(RccdPathAnswer::new(question, &answer))

@@ -1,4 +1,4 @@
-//! Records of answers about paths, for `ccd replay`.
+//! Evidence: files with an answer about a path and the question, which `ccd replay` checks.
 
 use crate::arguments::{reference, text};
 use crate::cell::{RccdCell, joint_count};
@@ -10,10 +10,10 @@ use crate::status::{Failure, RccdStatus, status_of};
 use rigid_ccd_robot::evidence::Evidence;
 use std::ffi::c_char;
 
-/// Writes a JSON record of an answer to `rccd_cell_first_contact` to a file. The record has the path, the settings,
+/// Writes an answer of `rccd_cell_first_contact` and its question to a JSON file. The file has the path, the settings,
 /// digests of all bodies of the cell, and the answer. `ccd replay` repeats the question without the deadline, and
-/// reports whether the answer holds. The cell must be as it was when the solver was made. If `settings` is null, the
-/// defaults are recorded.
+/// reports whether the answer holds. The cell must be unchanged since the solver was made. If `settings` is null, the
+/// defaults are written.
 ///
 /// # Safety
 /// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `path` is as
@@ -43,8 +43,9 @@ pub unsafe extern "C" fn rccd_evidence_write(
                 RccdPathAnswer::record(answer)?,
             )
         };
-        let record = Evidence::new(&cell.cell, &settings, path, answer).map_err(Failure::input)?;
-        let json = record.to_json().map_err(Failure::input)?;
+        let evidence =
+            Evidence::new(&cell.cell, &settings, path, answer).map_err(Failure::input)?;
+        let json = evidence.to_json().map_err(Failure::input)?;
         ccd_file::write(file, |out| out.write_all(json.as_bytes()))
             .map_err(|error| Failure::input(format!("{file}: {error}")))
     })

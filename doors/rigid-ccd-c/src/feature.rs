@@ -14,7 +14,7 @@ pub enum RccdFeatureKind {
     Edge = 2,
     /// The face `first` of the mesh.
     Face = 3,
-    /// The convex piece `first`. Its facets are unknown, or are not faces of the mesh.
+    /// The convex piece `first`, for a piece without known facets, or with facets that are not faces of the mesh.
     Piece = 4,
 }
 

@@ -1,10 +1,10 @@
-//! Structs that begin with their size, so that later versions of the library can append fields.
+//! Structs whose first field is their size, so that later versions of the library can append fields.
 
-use crate::arguments::check_place;
+use crate::arguments::check_output;
 use crate::status::Failure;
 
 /// A struct whose first field is its size in the caller's header. Programs built against an older header keep working:
-/// fields unknown to them are not written, and are read as the defaults.
+/// the library does not write the fields that they do not know, and reads them as the defaults.
 ///
 /// # Safety
 /// The struct is `repr(C)`, and its first field is a `usize`. The fields within `FIRST_SIZE` never change their offsets.
@@ -22,13 +22,13 @@ pub(crate) unsafe fn read<T: Growing>(
     pointer: *const T,
     default: T,
 ) -> Result<T, Failure> {
-    check_place(name, pointer.cast_mut())?;
+    check_output(name, pointer.cast_mut())?;
     // SAFETY: the caller's contract; the pointer is neither null nor misaligned.
     let size = unsafe { pointer.cast::<usize>().read() };
     if !(T::FIRST_SIZE..=size_of::<T>()).contains(&size) {
         let (first, now) = (T::FIRST_SIZE, size_of::<T>());
         return Err(Failure::argument(format!(
-            "size of {name} is {size}, not from {first} to {now}: it is not set, or from a header of a later version"
+            "size of {name} is {size}, not from {first} to {now}: it is not set, or the header is of a later version"
         )));
     }
     let mut value = default;
@@ -44,8 +44,8 @@ pub(crate) unsafe fn read<T: Growing>(
 ///
 /// # Safety
 /// `out` is null, or points to memory that begins with its size.
-pub(crate) unsafe fn size_of_place<T: Growing>(name: &str, out: *mut T) -> Result<usize, Failure> {
-    check_place(name, out)?;
+pub(crate) unsafe fn caller_size<T: Growing>(name: &str, out: *mut T) -> Result<usize, Failure> {
+    check_output(name, out)?;
     // SAFETY: the caller's contract; `out` is neither null nor misaligned.
     let size = unsafe { out.cast::<usize>().read() };
     if size < T::FIRST_SIZE {
@@ -57,10 +57,10 @@ pub(crate) unsafe fn size_of_place<T: Growing>(name: &str, out: *mut T) -> Resul
     Ok(size)
 }
 
-/// Stores the fields of a value that fit into `size` bytes. The size in `out` itself stays unchanged.
+/// Stores the fields of a value that fit into `size` bytes. The field with the size in `out` stays unchanged.
 ///
 /// # Safety
-/// `out` points to `size` bytes, where `size` comes from [`size_of_place`].
+/// `out` points to `size` bytes, where `size` comes from [`caller_size`].
 pub(crate) unsafe fn store<T: Growing>(out: *mut T, size: usize, value: &T) {
     let begin = size_of::<usize>();
     let count = size.min(size_of::<T>()) - begin;
@@ -75,7 +75,7 @@ pub(crate) unsafe fn store<T: Growing>(out: *mut T, size: usize, value: &T) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Growing, read, size_of_place, store};
+    use super::{Growing, caller_size, read, store};
 
     /// The first version of a struct. `Now` is the current one.
     #[repr(C)]
@@ -115,7 +115,7 @@ mod tests {
         unsafe {
             let value = read("settings", place, DEFAULT).ok().unwrap();
             assert_eq!((value.time, value.work), (2.0, 7));
-            let size = size_of_place("answer", place).ok().unwrap();
+            let size = caller_size("answer", place).ok().unwrap();
             store(
                 place,
                 size,
@@ -160,7 +160,7 @@ mod tests {
                     "{size}"
                 );
                 assert_eq!(
-                    size_of_place("answer", &mut now).is_ok(),
+                    caller_size("answer", &mut now).is_ok(),
                     store_works,
                     "{size}"
                 );

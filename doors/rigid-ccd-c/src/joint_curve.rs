@@ -8,8 +8,8 @@ use rigid_ccd_robot::JointCurve;
 /// share it.
 pub struct RccdJointCurve(pub(crate) JointCurve);
 
-/// Makes a curve through configurations at ascending times, with given velocities. Segments are cubic polynomials, or
-/// quintic ones if `accelerations` is not null.
+/// Makes a curve through configurations at ascending times, with the velocity at each of them. Segments are cubic
+/// polynomials. If `accelerations` is not null, they are quintic, and also have these accelerations.
 ///
 /// # Safety
 /// `times` is null or points to `count` numbers; `positions`, `velocities` and `accelerations` are null or point to
@@ -48,8 +48,8 @@ pub unsafe extern "C" fn rccd_joint_curve_through(
 }
 
 /// Makes a curve from polynomials in the time since each segment's start. The degree is at most 9. `coefficients` has
-/// `degree + 1` numbers for each joint of each segment, lowest power first. `times` are the boundaries of the segments:
-/// one more than segments.
+/// `degree + 1` numbers for each joint of each segment, lowest power first. `times` has the start of each segment, then
+/// the end of the last one.
 ///
 /// # Safety
 /// `times` is null or points to `segment_count + 1` numbers; `coefficients` is null or points to `segment_count ·
@@ -66,7 +66,7 @@ pub unsafe extern "C" fn rccd_joint_curve_from_polynomials(
     status_of(|| {
         let sizes = [segment_count, joint_count, degree].map(|size| size.checked_add(1));
         let [Some(time_count), Some(_), Some(coefficient_count)] = sizes else {
-            return Err(Failure::argument("the numbers of the curve are too large"));
+            return Err(Failure::argument("the counts of the curve are too large"));
         };
         // SAFETY: the contract of this function.
         let times = unsafe { array("times", times, time_count) }?;
@@ -80,7 +80,12 @@ pub unsafe extern "C" fn rccd_joint_curve_from_polynomials(
         let joints = unsafe { rows("coefficients", coefficients, [row_count, coefficient_count]) }?;
         let segments = joints.chunks(joint_count.max(1));
         let segments: Vec<Vec<Vec<f64>>> = segments
-            .map(|joints| joints.iter().map(|own| own.to_vec()).collect())
+            .map(|joints| {
+                joints
+                    .iter()
+                    .map(|polynomial| polynomial.to_vec())
+                    .collect()
+            })
             .collect();
         let curve = JointCurve::from_polynomials(times, &segments).map_err(Failure::input)?;
         // SAFETY: the contract of this function.

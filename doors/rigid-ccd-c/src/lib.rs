@@ -2,23 +2,23 @@
 //!
 //! | to … | file |
 //! |---|---|
-//! | check whether a call has failed, and why | `status.rs` |
+//! | tell whether and why a call has failed | `status.rs` |
 //! | dereference the pointers that C passes | `arguments.rs`, `growing.rs` |
 //! | make bodies, from shapes, arrays and files | `body.rs` |
-//! | move them at constant velocities | `motion.rs` |
-//! | move them along trajectories | `trajectory.rs` |
+//! | move bodies at constant velocities | `motion.rs` |
+//! | move bodies along trajectories | `trajectory.rs` |
 //! | set tolerances and limits | `settings.rs` |
 //! | ask about two bodies | `solver.rs` |
 //! | stop a query from another thread | `stop.rs` |
 //! | read answers | `answer.rs`, `feature.rs` |
 //! | put a robot among obstacles | `cell.rs` |
-//! | ask about its paths | `cell_solver.rs`, `path.rs`, `joint_curve.rs`, `path_answer.rs` |
-//! | record an answer, for a later check | `evidence.rs` |
+//! | ask about paths of a robot | `cell_solver.rs`, `path.rs`, `joint_curve.rs`, `path_answer.rs` |
+//! | write an answer to a file, for a later check | `evidence.rs` |
 //!
 //! # Contract of all functions
 //! A function never panics into C and never calls back. It keeps no pointer to its arguments after it returns. Each
 //! pointer argument is null or points to a value of its type that lives during the call. Each handle comes from this
-//! library and has not been freed. Null where it is not allowed is an error, not undefined behaviour. Threads may share
+//! library and has not been freed. A null pointer that is not allowed is an error, not undefined behaviour. Threads may share
 //! handles as `const` pointers. A solver belongs to one thread at a time.
 
 #![allow(unsafe_code, reason = "pointers from C are followed here")]

@@ -1,4 +1,4 @@
-//! PosePath, and motions at constant velocities.
+//! Poses, and motions at constant velocities.
 
 use crate::arguments::{reference, store};
 use crate::status::{Failure, RccdStatus, status_of};
@@ -58,7 +58,7 @@ impl RccdMotion {
     }
 }
 
-/// Returns the motion of a static body at the origin. Change its fields before use.
+/// Returns the motion of a static body at the origin. Change its fields to make the body move.
 #[unsafe(no_mangle)]
 pub extern "C" fn rccd_motion_at_rest() -> RccdMotion {
     RccdMotion::from_motion(&Motion::STILL)
@@ -94,12 +94,6 @@ pub unsafe extern "C" fn rccd_motion_between(
             .and_then(|(start, end)| Motion::between(start, end, center, duration))
             .map_err(Failure::input)?;
         // SAFETY: the contract of this function.
-        unsafe {
-            store(
-                "the place for the motion",
-                out,
-                RccdMotion::from_motion(&motion),
-            )
-        }
+        unsafe { store("out", out, RccdMotion::from_motion(&motion)) }
     })
 }

@@ -1,4 +1,4 @@
-//! Paths of a robot, as arguments of questions.
+//! Paths of a robot, which questions take as arguments.
 
 use crate::arguments::{array, reference};
 use crate::joint_curve::RccdJointCurve;
@@ -41,8 +41,8 @@ impl AsRef<[f64]> for Configuration {
     }
 }
 
-/// The content of a path of the interface.
-enum Pointed<'a> {
+/// The content of an [`RccdPath`], with its pointers dereferenced.
+enum Content<'a> {
     Curve(&'a RccdJointCurve),
     /// The positions of all configurations, and the number of configurations. There are no positions if the robot has no
     /// independent joint.
@@ -58,7 +58,7 @@ impl RccdPath {
     unsafe fn follow<'a>(
         path: *const RccdPath,
         joint_count: usize,
-    ) -> Result<Pointed<'a>, Failure> {
+    ) -> Result<Content<'a>, Failure> {
         // SAFETY: the contract of this function.
         let path = unsafe { reference("path", path) }?;
         if !path.curve.is_null() {
@@ -68,7 +68,7 @@ impl RccdPath {
                 ));
             }
             // SAFETY: the contract of this function.
-            return Ok(Pointed::Curve(unsafe { reference("curve", path.curve) }?));
+            return Ok(Content::Curve(unsafe { reference("curve", path.curve) }?));
         }
         if joint_count == 0 && path.configuration_count > MAX_EMPTY_CONFIGURATIONS {
             return Err(Failure::argument(format!(
@@ -85,10 +85,10 @@ impl RccdPath {
         })?;
         // SAFETY: the contract of this function.
         let positions = unsafe { array("configurations", path.configurations, total) }?;
-        Ok(Pointed::Configurations(positions, path.configuration_count))
+        Ok(Content::Configurations(positions, path.configuration_count))
     }
 
-    /// Copies a path to a record.
+    /// Copies a path, to write it to a file.
     ///
     /// # Safety
     /// As for [`RccdPath::follow`].
@@ -98,8 +98,8 @@ impl RccdPath {
     ) -> Result<RecordedPath, Failure> {
         // SAFETY: the contract of this function.
         Ok(match unsafe { RccdPath::follow(path, joint_count) }? {
-            Pointed::Curve(curve) => RecordedPath::Curve(curve.0.clone()),
-            Pointed::Configurations(positions, count) => {
+            Content::Curve(curve) => RecordedPath::Curve(curve.0.clone()),
+            Content::Configurations(positions, count) => {
                 let rows: Vec<&[f64]> = rows(positions, count, joint_count).collect();
                 RecordedPath::configurations(&rows)
             }
@@ -120,8 +120,8 @@ impl PathMemory {
     ) -> Result<R, Failure> {
         // SAFETY: the contract of this function.
         let (positions, count) = match unsafe { RccdPath::follow(path, joint_count) }? {
-            Pointed::Curve(curve) => return call(&curve.0),
-            Pointed::Configurations(positions, count) => (positions, count),
+            Content::Curve(curve) => return call(&curve.0),
+            Content::Configurations(positions, count) => (positions, count),
         };
         self.0.clear();
         let rows = rows(positions, count, joint_count);

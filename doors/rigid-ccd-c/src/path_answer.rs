@@ -1,7 +1,7 @@
 //! Answers about paths: one struct for all questions.
 
 use crate::answer::{RccdLimit, RccdOutcome};
-use crate::arguments::check_place;
+use crate::arguments::check_output;
 use crate::cell::RccdText;
 use crate::feature::RccdFeature;
 use crate::growing::{self, Growing};
@@ -21,8 +21,8 @@ pub struct RccdPathAnswer {
     pub outcome: RccdOutcome,
     /// The limit that ended the search.
     pub limit: RccdLimit,
-    /// The index of the segment, from 0, of the contact or of the least distance found. For a free path it is the last
-    /// segment. For an unresolved one, the path is free up to `fraction` of this segment.
+    /// The index of the segment, from 0, with the contact or the least distance found. For a free path it is the last
+    /// segment. An unresolved path is free up to `fraction` of this segment.
     pub segment: usize,
     /// The position within that segment, from 0 at its start to 1 at its end. Nothing touches before a first contact.
     pub fraction: f64,
@@ -43,8 +43,7 @@ pub struct RccdPathAnswer {
     pub feature_a: RccdFeature,
     /// The feature of the second item that is in contact.
     pub feature_b: RccdFeature,
-    /// The tolerance that the answer meets: that of the settings, or a larger one if rounding of positions does not
-    /// allow less.
+    /// The tolerance of the answer. It is the tolerance of the settings, or larger if rounding of positions requires it.
     pub tolerance: f64,
 }
 
@@ -74,7 +73,7 @@ impl RccdPathAnswer {
     /// Converts an answer from Rust. `question` is the question that it answers.
     pub(crate) fn new(question: Question, answer: &PathAnswer<'_>) -> Self {
         let outcome = &answer.outcome;
-        let found = RccdPathAnswer {
+        let converted = RccdPathAnswer {
             outcome: RccdOutcome::of_path(outcome),
             limit: outcome.limit().map_or(RccdLimit::None, RccdLimit::from),
             tolerance: answer.tolerance,
@@ -87,22 +86,22 @@ impl RccdPathAnswer {
             return RccdPathAnswer {
                 lower: outcome.lower(),
                 upper: outcome.upper(),
-                ..found
+                ..converted
             };
         }
         let PathPoint { segment, fraction } = answer.free_until;
         match outcome {
-            PathOutcome::Contact(_) => found,
+            PathOutcome::Contact(_) => converted,
             // A free path is free to the end of its last segment, even if it has one configuration only.
             PathOutcome::Free => RccdPathAnswer {
                 segment,
                 fraction: 1.0,
-                ..found
+                ..converted
             },
             _ => RccdPathAnswer {
                 segment,
                 fraction,
-                ..found
+                ..converted
             },
         }
     }
@@ -110,7 +109,7 @@ impl RccdPathAnswer {
     fn from_contact(contact: &PathContact<'_>) -> Self {
         let [item_a, item_b] = contact.items.map(|item| RccdText::from(item.name()));
         let witnesses = contact.witnesses.unwrap_or([DVec3::NAN; 2]);
-        let [witness_a, witness_b] = witnesses.map(|at| at.to_array());
+        let [witness_a, witness_b] = witnesses.map(|witness| witness.to_array());
         let [feature_a, feature_b] = contact
             .features
             .map(|feature| feature.map_or(RccdFeature::NONE, RccdFeature::from));
@@ -130,16 +129,16 @@ impl RccdPathAnswer {
         }
     }
 
-    /// Copies an answer to a record.
+    /// Copies an answer, to write it to a file.
     ///
     /// # Safety
     /// `answer` is null or points to an answer of this library whose solver has not been freed.
     pub(crate) unsafe fn record(answer: *const RccdPathAnswer) -> Result<RecordedAnswer, Failure> {
-        // SAFETY: the contract of this function. Outcome and limit are read as numbers, for the caller may have set any.
+        // SAFETY: the contract of this function. Outcome and limit are read as numbers, because the caller may have set any.
         // Only an answer about a distance has bounds without a contact.
         let (segment, fraction, lower, outcome, limit, [a, b]) = unsafe {
-            check_place("answer", answer.cast_mut())?;
-            growing::size_of_place("answer", answer.cast_mut())?;
+            check_output("answer", answer.cast_mut())?;
+            growing::caller_size("answer", answer.cast_mut())?;
             (
                 (*answer).segment,
                 (*answer).fraction,
@@ -167,7 +166,7 @@ impl RccdPathAnswer {
                 fraction,
             })
         } else {
-            let text = format!("the outcome {outcome} of the answer is none of a first contact");
+            let text = format!("the outcome {outcome} is not one of rccd_cell_first_contact");
             Err(Failure::argument(text))
         }
     }

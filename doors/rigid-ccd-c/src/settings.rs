@@ -14,8 +14,8 @@ use std::time::Duration;
 pub enum RccdStartPolicy {
     /// The contact is the answer.
     Report = 0,
-    /// Ignores the contact until the bodies approach. Holds for two bodies at constant velocities, and for paths in a
-    /// cell, in questions about the first or any contact. In other questions about two bodies the contact is the answer.
+    /// The contact is ignored until the bodies approach. This applies to questions about the first or any contact, of two
+    /// bodies at constant velocities or on a path in a cell. In other questions about two bodies the contact is the answer.
     Leave = 1,
 }
 
@@ -23,11 +23,12 @@ pub enum RccdStartPolicy {
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RccdContactNormals {
-    /// Where bodies touch up to rounding, the normal comes from the surfaces around the contact. Computing it may exceed
-    /// the deadline by some hundred microseconds, and allocates memory.
+    /// If the distance at a contact is only rounding error, the normal is computed from the surfaces around the contact.
+    /// This may exceed the deadline by some hundred microseconds, and allocates memory.
     Refined = 0,
-    /// The normal is that of the two triangles or convex pieces. Where they touch, it is mostly rounding error. Use it
-    /// for queries that must keep a deadline or must not allocate. Questions about paths in a cell always use it.
+    /// The normal is computed from the two triangles or convex pieces in contact. If they touch, it is mostly rounding
+    /// error. Use it for queries that must keep a deadline or must not allocate. Questions about paths in a cell always
+    /// use it.
     OfPieces = 1,
 }
 
@@ -44,14 +45,14 @@ pub struct RccdSettings {
     pub margin: f64,
     /// The largest number of visits of a query. A visit takes about a microsecond or less, and longer for curves of a
     /// high degree. Along a trajectory the budget is for each segment between two poses, or for each polynomial of a
-    /// curve. In a cell it is for each query of two bodies: a question about a path takes at most 8 budgets for each
-    /// segment, all pairs together, and the closest approach at most 12.
+    /// curve. In a cell the budget is for each query of two bodies: a question about a path takes at most 8 budgets
+    /// for each segment, all pairs together, and a closest approach at most 12.
     pub budget: u64,
-    /// The time in seconds after which a query ends as unresolved, from 0 to 1e19; infinity for no deadline.
+    /// The time in seconds after which a query ends as unresolved, from 0 to 1e19. Infinity is no deadline.
     pub deadline: f64,
-    /// One of `rccd_start_policy`.
+    /// A value of `rccd_start_policy`.
     pub start_policy: u32,
-    /// One of `rccd_contact_normals`.
+    /// A value of `rccd_contact_normals`.
     pub contact_normals: u32,
     /// A flag that stops queries, or null. Solvers share its ownership: the caller may free it at any time.
     pub stop: *const RccdStop,
@@ -143,7 +144,7 @@ impl RccdSettings {
 pub unsafe extern "C" fn rccd_settings_default(settings: *mut RccdSettings) -> RccdStatus {
     status_of(|| {
         // SAFETY: the contract of this function.
-        let size = unsafe { growing::size_of_place("settings", settings) }?;
+        let size = unsafe { growing::caller_size("settings", settings) }?;
         // SAFETY: the contract of this function.
         unsafe { growing::store(settings, size, &RccdSettings::default()) };
         Ok(())

@@ -9,11 +9,12 @@ use crate::settings::RccdSettings;
 use crate::status::{Failure, RccdStatus, status_of};
 use crate::trajectory::RccdTrajectory;
 use ccd_core::MovingBody;
-use rigid_ccd::{Answer, InputError, Motion, Question, Settings, Solver};
+use rigid_ccd::{Motion, Query, Question, Settings, Solver};
 
-/// A solver: settings, and memory that is reused between queries. Each thread needs its own.
+/// A solver: settings, and memory that is reused between queries. Each thread needs a solver of its own.
 pub struct RccdSolver {
     solver: Solver,
+    /// The settings of queries. `solver` does not use its own settings.
     settings: Settings,
 }
 
@@ -43,7 +44,7 @@ pub unsafe extern "C" fn rccd_solver_new(
         // SAFETY: the contract of this function.
         let settings = unsafe { read_settings(settings) }?;
         let solver = RccdSolver {
-            solver: Solver::new().with_settings(settings.clone()),
+            solver: Solver::new(),
             settings,
         };
         // SAFETY: the contract of this function.
@@ -65,7 +66,6 @@ pub unsafe extern "C" fn rccd_solver_set_settings(
         let solver = unsafe { exclusive("solver", solver) }?;
         // SAFETY: the contract of this function.
         solver.settings = unsafe { read_settings(settings) }?;
-        solver.solver.set_settings(solver.settings.clone());
         Ok(())
     })
 }
@@ -94,7 +94,15 @@ pub unsafe extern "C" fn rccd_first_contact(
     answer: *mut RccdAnswer,
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
-    unsafe { ask(Question::FirstContact, solver, [a, b], duration, answer) }
+    unsafe {
+        ask(
+            Question::FirstContact,
+            solver,
+            [a, b],
+            (duration, None),
+            answer,
+        )
+    }
 }
 
 /// Finds some contact of two moving bodies, not necessarily the first one, or proves that there is none. If the bodies
@@ -111,10 +119,19 @@ pub unsafe extern "C" fn rccd_any_contact(
     answer: *mut RccdAnswer,
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
-    unsafe { ask(Question::AnyContact, solver, [a, b], duration, answer) }
+    unsafe {
+        ask(
+            Question::AnyContact,
+            solver,
+            [a, b],
+            (duration, None),
+            answer,
+        )
+    }
 }
 
-/// Finds the first and the last contact of two moving bodies. They do not touch before the first time or after the last.
+/// Finds the first and the last contact of two moving bodies. They do not touch before the first contact or after the last
+/// one.
 ///
 /// # Safety
 /// As for `rccd_first_contact`.
@@ -127,7 +144,15 @@ pub unsafe extern "C" fn rccd_contact_interval(
     answer: *mut RccdAnswer,
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
-    unsafe { ask(Question::ContactInterval, solver, [a, b], duration, answer) }
+    unsafe {
+        ask(
+            Question::ContactInterval,
+            solver,
+            [a, b],
+            (duration, None),
+            answer,
+        )
+    }
 }
 
 /// Computes bounds of the least distance of two moving bodies, to within the tolerance. With a duration of 0, it is the
@@ -144,12 +169,21 @@ pub unsafe extern "C" fn rccd_closest_approach(
     answer: *mut RccdAnswer,
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
-    unsafe { ask(Question::ClosestApproach, solver, [a, b], duration, answer) }
+    unsafe {
+        ask(
+            Question::ClosestApproach,
+            solver,
+            [a, b],
+            (duration, None),
+            answer,
+        )
+    }
 }
 
-/// Decides whether two moving bodies always keep a distance of at least `clearance`. If they do, the outcome is free. If
-/// they do not, it is a contact, at a time at which they are nearer. If the bounds are too far apart to decide, it is
-/// the least distance. Bodies that possibly touch do not keep a clearance of 0 either.
+/// Decides whether two moving bodies always keep a distance of at least `clearance`. If they do, the outcome is
+/// `RCCD_OUTCOME_FREE`. If they do not, it is `RCCD_OUTCOME_CONTACT`, at a time at which they are nearer. If the bounds of
+/// the distance do not decide, it is `RCCD_OUTCOME_LEAST_DISTANCE`. Bodies that possibly touch do not keep a clearance of
+/// 0.
 ///
 /// # Safety
 /// As for `rccd_first_contact`.
@@ -162,21 +196,13 @@ pub unsafe extern "C" fn rccd_keeps_clearance(
     clearance: f64,
     answer: *mut RccdAnswer,
 ) -> RccdStatus {
-    let question = |s: &mut RccdSolver, a: MovingBody<'_>, b: MovingBody<'_>| {
-        s.solver.set_settings(Settings {
-            clearance: Some(clearance),
-            ..s.settings.clone()
-        });
-        let found = s.solver.closest_approach(a, b, duration);
-        s.solver.set_settings(s.settings.clone());
-        found
-    };
-    let to_answer = |found: &Answer| RccdAnswer::about_clearance(found, duration, clearance);
+    let question = Question::ClosestApproach;
+    let clearance = Some(clearance);
     // SAFETY: the contract of this function.
-    unsafe { ask_with(solver, [a, b], answer, to_answer, question) }
+    unsafe { ask(question, solver, [a, b], (duration, clearance), answer) }
 }
 
-/// Answers a question about two moving bodies, and stores the answer.
+/// Answers a question about two moving bodies, and stores the answer. With a clearance, the answer is whether they keep it.
 ///
 /// # Safety
 /// As for [`rccd_first_contact`].
@@ -184,40 +210,30 @@ unsafe fn ask(
     question: Question,
     solver: *mut RccdSolver,
     bodies: [*const RccdMovingBody; 2],
-    duration: f64,
+    (duration, clearance): (f64, Option<f64>),
     out: *mut RccdAnswer,
-) -> RccdStatus {
-    let to_answer = |found: &Answer| RccdAnswer::new(found, duration);
-    // SAFETY: the contract of this function.
-    unsafe {
-        ask_with(solver, bodies, out, to_answer, |s, a, b| {
-            s.solver.answer(question, a, b, duration)
-        })
-    }
-}
-
-/// Answers by calling `question`, and stores the answer converted by `to_answer`.
-///
-/// # Safety
-/// As for [`rccd_first_contact`].
-unsafe fn ask_with(
-    solver: *mut RccdSolver,
-    bodies: [*const RccdMovingBody; 2],
-    out: *mut RccdAnswer,
-    to_answer: impl FnOnce(&Answer) -> RccdAnswer,
-    question: impl FnOnce(&mut RccdSolver, MovingBody<'_>, MovingBody<'_>) -> Result<Answer, InputError>,
 ) -> RccdStatus {
     status_of(|| {
         // SAFETY: the contract of this function.
-        let solver = unsafe { exclusive("solver", solver) }?;
+        let RccdSolver { solver, settings } = unsafe { exclusive("solver", solver) }?;
         // SAFETY: the contract of this function.
         let [a, b] = unsafe { [moving_body("a", bodies[0])?, moving_body("b", bodies[1])?] };
         // SAFETY: the contract of this function.
-        let size = unsafe { growing::size_of_place("the answer", out) }?;
-        let found = question(solver, a, b);
-        // Passes the answer by reference: it is large, and a few copies of it would take about as long as a short
+        let size = unsafe { growing::caller_size("the answer", out) }?;
+        let with_clearance = clearance.map(|_| Settings {
+            clearance,
+            ..settings.clone()
+        });
+        let settings = with_clearance.as_ref().unwrap_or(settings);
+        let query = Query::new(a, b, duration, settings).map_err(Failure::input)?;
+        let answer = solver.answer_query(question, &query);
+        // The answer is passed by reference: it is large, and a few copies of it would take about as long as a short
         // query.
-        let answer = to_answer(found.as_ref().map_err(Failure::input)?);
+        let answer = answer.as_ref().map_err(Failure::input)?;
+        let answer = match clearance {
+            Some(clearance) => RccdAnswer::about_clearance(answer, duration, clearance),
+            None => RccdAnswer::new(answer, duration),
+        };
         // SAFETY: the contract of this function.
         unsafe { growing::store(out, size, &answer) };
         Ok(())
@@ -230,22 +246,26 @@ unsafe fn ask_with(
 /// The pointer is null, or points to a moving body whose pointers are null or point to values of their types.
 unsafe fn moving_body<'a>(
     name: &str,
-    moving: *const RccdMovingBody,
+    moving_body: *const RccdMovingBody,
 ) -> Result<MovingBody<'a>, Failure> {
     // SAFETY: the contract of this function.
-    let moving = unsafe { reference(name, moving) }?;
+    let RccdMovingBody {
+        body,
+        motion,
+        trajectory,
+    } = *unsafe { reference(name, moving_body) }?;
     // SAFETY: the contract of this function.
-    let body = &*unsafe { reference("the body", moving.body) }?.0;
-    match (moving.motion.is_null(), moving.trajectory.is_null()) {
+    let body = &*unsafe { reference("the body", body) }?.0;
+    match (motion.is_null(), trajectory.is_null()) {
         (true, true) => Ok((body, Motion::STILL).into()),
         (false, true) => {
             // SAFETY: the contract of this function.
-            let motion = unsafe { reference("the motion", moving.motion) }?;
+            let motion = unsafe { reference("the motion", motion) }?;
             Ok((body, motion.to_motion().map_err(Failure::input)?).into())
         }
         (true, false) => {
             // SAFETY: the contract of this function.
-            let trajectory = unsafe { reference("the trajectory", moving.trajectory) }?;
+            let trajectory = unsafe { reference("the trajectory", trajectory) }?;
             Ok((body, trajectory.as_dyn()).into())
         }
         (false, false) => {

@@ -11,13 +11,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 pub enum RccdStatus {
     /// Success. A query that reaches a limit also succeeds: its outcome is unresolved.
     Ok = 0,
-    /// An argument is null where null is not allowed, or is not a value of its type.
+    /// An argument is null but must not be, or is not a value of its type.
     InvalidArgument = 1,
     /// A number, such as a radius or a duration, is out of range.
     InvalidInput = 2,
     /// The mesh or file does not give a body.
     InvalidBody = 3,
-    /// A defect of this library. Only free the objects of the call; any other use of them is not allowed.
+    /// A defect of this library. Afterwards the objects passed to the call may only be freed.
     Panic = 4,
 }
 
@@ -69,7 +69,7 @@ pub(crate) fn status_of(call: impl FnOnce() -> Result<(), Failure>) -> RccdStatu
         },
     };
     let text = failure.message.replace('\0', " ");
-    // Fails while the thread ends, when its message is already destroyed.
+    // This fails while the thread ends, because its message is already destroyed. Then there is no message.
     let _ = MESSAGE.try_with(|message| message.replace(CString::new(text).unwrap_or_default()));
     failure.status
 }
@@ -94,7 +94,7 @@ pub extern "C" fn rccd_version() -> *const c_char {
 }
 
 /// Returns the message of this thread's last failed call, in UTF-8; empty if no call has failed. The text is valid until
-/// this thread's next failed call. Call this in a statement of its own, after the failed call.
+/// this thread's next failed call. Call this in a separate statement after the failed call.
 #[unsafe(no_mangle)]
 pub extern "C" fn rccd_last_error() -> *const c_char {
     let message = MESSAGE.try_with(|message| message.borrow().as_ptr());

@@ -18,7 +18,7 @@ pub unsafe extern "C" fn rccd_stop_new(out: *mut *mut RccdStop) -> RccdStatus {
     status_of(|| unsafe { give(out, RccdStop(Arc::default())) })
 }
 
-/// Sets the flag. Running and later queries end as unresolved until it is cleared. A question that needs no search is
+/// Sets the flag. Until it is cleared, running and later queries end as unresolved. Questions that need no search are
 /// still answered.
 ///
 /// # Safety

@@ -31,17 +31,19 @@ pub unsafe extern "C" fn rccd_trajectory_pose_path(
         // SAFETY: the contract of this function.
         let (times, poses) =
             unsafe { (array("times", times, count)?, array("poses", poses, count)?) };
-        let timed = times.iter().zip(poses);
-        let timed: Result<Vec<_>, _> = timed
+        let timed_poses = times.iter().zip(poses);
+        let timed_poses: Result<Vec<_>, _> = timed_poses
             .map(|(&time, pose)| Ok((time, pose.to_pose()?)))
             .collect();
-        let path = timed.and_then(PosePath::new).map_err(Failure::input)?;
+        let path = timed_poses
+            .and_then(PosePath::new)
+            .map_err(Failure::input)?;
         // SAFETY: the contract of this function.
         unsafe { give(out, RccdTrajectory(Box::new(path))) }
     })
 }
 
-/// Makes the trajectory of a thrown body: a motion whose center has a constant acceleration, as in free fall.
+/// Makes the trajectory of a body in free fall: `thrown` with a constant acceleration of its center.
 ///
 /// # Safety
 /// `thrown` is null or points to a motion, `acceleration` is null or points to three numbers, and `out` is null or
@@ -58,9 +60,9 @@ pub unsafe extern "C" fn rccd_trajectory_ballistic(
         // SAFETY: the contract of this function.
         let acceleration = *unsafe { reference("acceleration", acceleration.cast::<[f64; 3]>()) }?;
         let thrown = thrown.to_motion().map_err(Failure::input)?;
-        let falls = Ballistic::new(thrown, acceleration).map_err(Failure::input)?;
+        let trajectory = Ballistic::new(thrown, acceleration).map_err(Failure::input)?;
         // SAFETY: the contract of this function.
-        unsafe { give(out, RccdTrajectory(Box::new(falls))) }
+        unsafe { give(out, RccdTrajectory(Box::new(trajectory))) }
     })
 }
 
@@ -78,27 +80,27 @@ pub struct RccdRotations {
 }
 
 /// Makes the trajectory of a body whose origin follows a Bézier curve of any degree from time 0 to `duration`. `points`
-/// are the control points, three numbers each. If `turns` is null, the body does not rotate.
+/// are the control points, three numbers each. If `rotations` is null, the body does not rotate.
 ///
 /// # Safety
-/// `points` is null or points to `3 · count` numbers; `turns` is null or points to turns, whose times and rotations
-/// are null or point to as many numbers as their count says; `out` is null or points to memory for a handle.
+/// `points` is null or points to `3 · count` numbers; `rotations` is null or points to rotations, whose times and
+/// quaternions are null or point to as many numbers as their count says; `out` is null or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_trajectory_bezier(
     points: *const f64,
     count: usize,
     duration: f64,
-    turns: *const RccdRotations,
+    rotations: *const RccdRotations,
     out: *mut *mut RccdTrajectory,
 ) -> RccdStatus {
     let curve = |points: &[[f64; 3]]| Curve::bezier(points, duration);
     // SAFETY: the contract of this function.
-    unsafe { give_spline(points, count, curve, turns, out) }
+    unsafe { give_spline(points, count, curve, rotations, out) }
 }
 
 /// Makes the trajectory of a body whose origin follows a uniform cubic B-spline from time 0 to `duration`. `points` are
-/// at least four control points, three numbers each. The curve begins near the second one and ends near the last but
-/// one. If `turns` is null, the body does not rotate.
+/// at least four control points, three numbers each. The curve begins near the second point and ends near
+/// the last but one. If `rotations` is null, the body does not rotate.
 ///
 /// # Safety
 /// As for `rccd_trajectory_bezier`.
@@ -107,12 +109,12 @@ pub unsafe extern "C" fn rccd_trajectory_b_spline(
     points: *const f64,
     count: usize,
     duration: f64,
-    turns: *const RccdRotations,
+    rotations: *const RccdRotations,
     out: *mut *mut RccdTrajectory,
 ) -> RccdStatus {
     let curve = |points: &[[f64; 3]]| Curve::b_spline(points, duration);
     // SAFETY: the contract of this function.
-    unsafe { give_spline(points, count, curve, turns, out) }
+    unsafe { give_spline(points, count, curve, rotations, out) }
 }
 
 /// Frees a trajectory. Does nothing for null.
@@ -131,21 +133,21 @@ unsafe fn give_spline(
     points: *const f64,
     count: usize,
     curve: impl FnOnce(&[[f64; 3]]) -> Result<Curve, InputError>,
-    turns: *const RccdRotations,
+    rotations: *const RccdRotations,
     out: *mut *mut RccdTrajectory,
 ) -> RccdStatus {
     status_of(|| {
         // SAFETY: the contract of this function.
         let points = unsafe { array("points", points.cast::<[f64; 3]>(), count) }?;
         let curve = curve(points).map_err(Failure::input)?;
-        let turns = if turns.is_null() {
+        let rotations = if rotations.is_null() {
             OrientationCurve::NONE
         } else {
             // SAFETY: the contract of this function.
-            unsafe { reference("turns", turns)?.to_curve() }?
+            unsafe { reference("rotations", rotations)?.to_curve() }?
         };
         // SAFETY: the contract of this function.
-        unsafe { give(out, RccdTrajectory(Box::new(Spline::new(curve, turns)))) }
+        unsafe { give(out, RccdTrajectory(Box::new(Spline::new(curve, rotations)))) }
     })
 }
 
@@ -156,7 +158,7 @@ impl RccdRotations {
         // SAFETY: the contract of this function.
         let (times, rotations) = unsafe {
             (
-                array("times of turns", self.times, self.count)?,
+                array("times of rotations", self.times, self.count)?,
                 array("rotations", self.rotations.cast::<[f64; 4]>(), self.count)?,
             )
         };

@@ -40,11 +40,11 @@ impl Mesh {
     /// The defect of the file, with its line or element.
     pub fn read(name: &str, bytes: &[u8], scale: f64, unit: Option<String>) -> Result<Self, Fault> {
         let in_file = |fault: MeshFault| Fault::plain(format!("{name}: {fault}"));
-        let asked = unit.map(|unit| unit.parse::<Unit>()).transpose()?;
+        let requested_unit = unit.map(|unit| unit.parse::<Unit>()).transpose()?;
         let format = Format::from_path(name).map_err(in_file)?;
         let read = || {
             let file = MeshFile::from_reader(format, bytes)?;
-            let file = match asked {
+            let file = match requested_unit {
                 Some(unit) => file.converted_to_unit(unit),
                 None => file,
             };
@@ -62,11 +62,11 @@ impl Mesh {
                 unit: unit.filter(|_| !is_scaled),
             })
         };
-        let made = read().map_err(|error: MeshError| in_file(error.fault))?;
-        if asked.is_none() {
-            tell(Remark::remark_on_unit(made.unit));
+        let mesh = read().map_err(|error: MeshError| in_file(error.fault))?;
+        if requested_unit.is_none() {
+            tell(Remark::remark_on_unit(mesh.unit));
         }
-        Ok(made)
+        Ok(mesh)
     }
 
     /// Returns the unit of the coordinates, or `None` if it is unknown.
@@ -100,7 +100,7 @@ impl Body {
     ) -> Result<Self, Fault> {
         let vertices = positions.as_chunks::<3>().0.to_vec();
         let mesh = TriangleMesh::new(vertices, indices.as_chunks::<3>().0)?;
-        Body::from_triangles(&mesh, choice(pieces, is_surface)?)
+        Body::from_triangles(&mesh, piece_choice(pieces, is_surface)?)
     }
 
     /// Makes a body from a mesh that was read from a file.
@@ -108,7 +108,7 @@ impl Body {
     /// # Errors
     /// A mesh that cannot be represented by pieces of this kind.
     pub fn from_read_mesh(mesh: &Mesh, pieces: &str, is_surface: bool) -> Result<Self, Fault> {
-        Body::from_triangles(&mesh.mesh, choice(pieces, is_surface)?)
+        Body::from_triangles(&mesh.mesh, piece_choice(pieces, is_surface)?)
     }
 
     /// Makes a box about its origin. The arguments are half extents.
@@ -137,7 +137,7 @@ impl Body {
     /// # Errors
     /// A length that is not positive and finite.
     pub fn capsule(radius: f64, half_height: f64) -> Result<Self, Fault> {
-        let report = round_report("capsule", [radius, half_height]);
+        let report = solid_report("capsule", [radius, half_height]);
         Body::from_shape(rigid_ccd::Body::capsule(radius, half_height), report)
     }
 
@@ -211,29 +211,29 @@ impl Body {
     ) -> Result<Self, Fault> {
         let polytope = shape.enclosing_polytope(excess.unwrap_or(shape.default_excess()))?;
         let excess = polytope.excess();
-        let round = round_report(name, [radius, half_height]);
-        let report = format!("{round}, exceeded by up to {excess:.3e}");
+        let description = solid_report(name, [radius, half_height]);
+        let report = format!("{description}, exceeded by up to {excess:.3e}");
         Body::from_shape(polytope.body(), report)
     }
 }
 
-fn round_report(name: &str, lengths: [f64; 2]) -> String {
+fn solid_report(name: &str, lengths: [f64; 2]) -> String {
     let [radius, half_height] = lengths.map(Number);
     format!("{name} of radius {radius} and half height {half_height}")
 }
 
-fn choice(pieces: &str, is_surface: bool) -> Result<PieceChoice, Fault> {
+fn piece_choice(pieces: &str, is_surface: bool) -> Result<PieceChoice, Fault> {
     match pieces {
         "auto" | "triangles" if is_surface => Ok(PieceChoice::Surface),
         "patches" | "hull" | "outer-hull" if is_surface => Err(Fault::plain(format!(
-            "surface: {pieces} fill a solid; a hollow surface has pieces: \"triangles\""
+            "surface: pieces \"{pieces}\" represent a solid; a hollow surface needs \"triangles\""
         ))),
         "auto" => Ok(PieceChoice::Auto),
         "triangles" => Ok(PieceChoice::Triangles),
         "patches" => Ok(PieceChoice::Patches(Default::default())),
         "hull" => Ok(PieceChoice::Hull),
         "outer-hull" => Ok(PieceChoice::OuterHull),
-        // `doors/js/module/body.js` has refused unknown names before.
+        // `doors/js/module/body.js` refuses unknown names earlier.
         _ => Err(Fault::plain(format!("pieces: {pieces:?}"))),
     }
 }

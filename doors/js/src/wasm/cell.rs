@@ -54,13 +54,13 @@ impl PathSettings {
 }
 
 impl From<PathSettings> for Settings {
-    fn from(given: PathSettings) -> Self {
+    fn from(settings: PathSettings) -> Self {
         Settings {
-            tolerance: given.tolerance,
-            margin: given.margin,
+            tolerance: settings.tolerance,
+            margin: settings.margin,
             // The cast saturates: a larger number is the largest budget.
-            budget: given.budget as u64,
-            start_policy: if given.leaves_start_contacts {
+            budget: settings.budget as u64,
+            start_policy: if settings.leaves_start_contacts {
                 StartPolicy::Leave
             } else {
                 StartPolicy::Report
@@ -147,7 +147,7 @@ impl Cell {
         self.change(|cell| cell.allow_contact([cell.item_named(a)?, cell.item_named(b)?]))
     }
 
-    /// Checks two items again.
+    /// Revokes the permission of two items to touch.
     ///
     /// # Errors
     /// An unknown name, or a pair that is never checked.
@@ -158,9 +158,9 @@ impl Cell {
     /// Returns two texts for each remark: "warning" or "remark", then the remark itself.
     ///
     /// # Errors
-    /// A cell that was lost by a fault during a change.
+    /// The cell is lost, because a change of it failed with a panic.
     pub fn remarks(&self) -> Result<Vec<String>, Fault> {
-        let cell = self.cell.as_ref().ok_or_else(lost)?.borrow_owner();
+        let cell = self.cell.as_ref().ok_or_else(lost_cell)?.borrow_owner();
         Ok(remark_texts(cell.remarks()))
     }
 
@@ -186,9 +186,9 @@ impl Cell {
     /// Returns the checked pairs of links, two names for each pair.
     ///
     /// # Errors
-    /// A cell that was lost by a fault during a change.
+    /// The cell is lost, because a change of it failed with a panic.
     pub fn checked_pairs(&self) -> Result<Vec<String>, Fault> {
-        let cell = self.cell.as_ref().ok_or_else(lost)?.borrow_owner();
+        let cell = self.cell.as_ref().ok_or_else(lost_cell)?.borrow_owner();
         Ok(names_of_pairs(cell.robot(), cell.link_pairs()))
     }
 
@@ -221,12 +221,12 @@ impl Cell {
         resolution: f64,
         max_pose_error: f64,
     ) -> Result<Vec<f64>, Fault> {
-        let how = RangeSettings {
+        let range_settings = RangeSettings {
             resolution,
             max_pose_error,
         };
         let ranges = self.with_solver_for((path, count), settings, |solver, path| {
-            solver.clearance_ranges(path, how)
+            solver.clearance_ranges(path, range_settings)
         })?;
         let numbers = ranges.iter().flat_map(|range| {
             let verdict = match range.verdict {
@@ -245,14 +245,14 @@ impl Cell {
         &mut self,
         change: impl FnOnce(&mut rigid_ccd_robot::Cell) -> Result<(), RobotError>,
     ) -> Result<(), Fault> {
-        let mut cell = self.taken()?.into_owner();
+        let mut cell = self.take_cell()?.into_owner();
         let changed = change(&mut cell);
         self.cell = Some(with_solver(cell));
         Ok(changed?)
     }
 
-    fn taken(&mut self) -> Result<CellWithSolver, Fault> {
-        self.cell.take().ok_or_else(lost)
+    fn take_cell(&mut self) -> Result<CellWithSolver, Fault> {
+        self.cell.take().ok_or_else(lost_cell)
     }
 
     /// Calls a function with the solver and the configurations of a path.
@@ -260,9 +260,9 @@ impl Cell {
         &mut self,
         (path, count): (&[f64], usize),
         settings: PathSettings,
-        then: impl FnOnce(&mut CellSolver<'_>, &[&[f64]]) -> Result<T, PathError>,
+        call: impl FnOnce(&mut CellSolver<'_>, &[&[f64]]) -> Result<T, PathError>,
     ) -> Result<T, Fault> {
-        let mut cell = self.taken()?;
+        let mut cell = self.take_cell()?;
         let joints = cell.borrow_owner().robot().limits().len();
         let configurations: Vec<&[f64]> = match joints {
             0 => vec![&[]; count],
@@ -272,18 +272,18 @@ impl Cell {
         let robot = cell.borrow_owner().robot();
         let mut remarks = configurations
             .iter()
-            .filter_map(|at| robot.remark_on_configuration(at));
+            .filter_map(|configuration| robot.remark_on_configuration(configuration));
         tell_warnings(remarks.next());
         let answer = cell.with_dependent_mut(|_, solver| {
             solver.set_settings(settings.into());
-            then(solver, &configurations)
+            call(solver, &configurations)
         });
         self.cell = Some(cell);
         Ok(answer?)
     }
 }
 
-fn lost() -> Fault {
+fn lost_cell() -> Fault {
     Fault::plain("the cell was lost in an earlier error")
 }
 

@@ -25,7 +25,7 @@ pub(crate) fn tell(remarks: impl IntoIterator<Item = Remark>) {
             Remark::OpenSeam { .. } => remark(
                 kind,
                 &format!(
-                    "{told}; coordinates that are rounded are the same, and BufferGeometryUtils.mergeVertices of three.js joins vertices once normal and uv are deleted"
+                    "{told}; rounding the coordinates closes the seam, and so does BufferGeometryUtils.mergeVertices of three.js after normal and uv are deleted"
                 ),
             ),
             _ => remark(kind, &told.to_string()),
@@ -33,8 +33,8 @@ pub(crate) fn tell(remarks: impl IntoIterator<Item = Remark>) {
     }
 }
 
-/// Passes the warnings among the remarks on a robot or a cell to JavaScript. Of remarks on input, passes one of each
-/// kind.
+/// Passes the warnings among the remarks on a robot or a cell to JavaScript. Warnings about input that
+/// differ only in numbers are of the same kind.
 pub(crate) fn tell_warnings(remarks: impl IntoIterator<Item = CellRemark>) {
     for told in remarks.into_iter().filter(CellRemark::is_warning) {
         let text = told.to_string();

@@ -3,38 +3,27 @@
 use rigid_ccd::answer::Limit;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-const LIMITS: [Limit; 6] = [
-    Limit::Budget,
-    Limit::Deadline,
-    Limit::Stopped,
-    Limit::Stalled,
-    Limit::OracleGaveUp,
-    Limit::OverlapUndecided,
-];
-
 /// Returns the number of a limit. JavaScript passes it to [`limit_name`] and [`limit_advice`].
 pub(crate) fn limit_number(limit: Limit) -> usize {
-    let number = LIMITS.iter().position(|other| *other == limit);
-    number.unwrap_or(LIMITS.len())
+    let number = Limit::ALL.iter().position(|other| *other == limit);
+    number.unwrap_or(Limit::ALL.len())
 }
 
 /// Returns the name of the limit with a number.
 #[wasm_bindgen]
 pub fn limit_name(number: usize) -> String {
-    LIMITS.get(number).copied().map_or("other".into(), name)
+    let limit = Limit::ALL.get(number);
+    limit.map_or("other".into(), Limit::to_string)
 }
 
-/// Returns advice about the limit with a number, in the names of JavaScript.
+/// Returns what the caller can do about the limit with a number. Functions have their JavaScript names.
 #[wasm_bindgen]
 pub fn limit_advice(number: usize) -> String {
-    LIMITS.get(number).copied().map_or(String::new(), advice)
+    let limit = Limit::ALL.get(number).copied();
+    limit.map_or(String::new(), advice)
 }
 
-pub(crate) fn name(limit: Limit) -> String {
-    limit.to_string()
-}
-
-/// Returns advice about a limit, in the names of JavaScript.
+/// Returns what the caller can do about a limit. Functions have their JavaScript names.
 pub(crate) fn advice(limit: Limit) -> String {
     let advice = match limit {
         Limit::Budget => {

@@ -69,11 +69,11 @@ impl Movement {
     /// # Errors
     /// As for [`Movement::from_velocities`].
     pub fn ballistic(numbers: &[f64], acceleration: &[f64]) -> Result<Self, Fault> {
-        let thrown = Ballistic::new(motion_from_numbers(numbers)?, vector(acceleration))?;
-        Ok(Movement::new(MovementKind::Ballistic(thrown)))
+        let ballistic = Ballistic::new(motion_from_numbers(numbers)?, vector(acceleration))?;
+        Ok(Movement::new(MovementKind::Ballistic(ballistic)))
     }
 
-    /// Makes a path through poses at times. `angular_velocities` has an angular velocity for each pair of consecutive poses, or is
+    /// Makes a path through poses at times. `angular_velocities` has an angular velocity from each pose to the next, or is
     /// `None`.
     ///
     /// # Errors
@@ -85,12 +85,12 @@ impl Movement {
         angular_velocities: Option<Vec<f64>>,
     ) -> Result<Self, Fault> {
         let poses = poses.as_chunks::<POSE_LENGTH>().0.iter().enumerate();
-        let timed = times.iter().zip(poses).map(|(&time, (k, numbers))| {
+        let timed_poses = times.iter().zip(poses).map(|(&time, (k, numbers))| {
             let pose = pose_from_numbers(numbers);
             let pose = pose.map_err(Fault::of_element(format!("poses[{k}]")))?;
             Ok((time, pose))
         });
-        let poses = PosePath::new(timed.collect::<Result<_, Fault>>()?)?;
+        let poses = PosePath::new(timed_poses.collect::<Result<_, Fault>>()?)?;
         let mut poses = poses.about(vector(center))?;
         if let Some(angular_velocities) = angular_velocities {
             poses =
@@ -119,7 +119,7 @@ impl Movement {
         }
         let pose = match &*self.0 {
             MovementKind::Motion(motion) | MovementKind::Between(motion, _) => motion.pose(time),
-            MovementKind::Ballistic(thrown) => Trajectory::pose(thrown, time)?,
+            MovementKind::Ballistic(ballistic) => Trajectory::pose(ballistic, time)?,
             MovementKind::Poses(poses) => poses.pose(time)?,
             MovementKind::Link(link) => Trajectory::pose(&link.trajectory()?, time)?,
         };
@@ -160,15 +160,15 @@ impl Movement {
     pub(crate) fn with_body<T>(
         &self,
         body: &Body,
-        then: impl FnOnce(MovingBody<'_>) -> Result<T, InputError>,
+        call: impl FnOnce(MovingBody<'_>) -> Result<T, InputError>,
     ) -> Result<T, InputError> {
         match &*self.0 {
             MovementKind::Motion(motion) | MovementKind::Between(motion, _) => {
-                then((body, *motion).into())
+                call((body, *motion).into())
             }
-            MovementKind::Ballistic(thrown) => then((body, thrown).into()),
-            MovementKind::Poses(poses) => then((body, poses).into()),
-            MovementKind::Link(link) => then((body, &link.trajectory()?).into()),
+            MovementKind::Ballistic(ballistic) => call((body, ballistic).into()),
+            MovementKind::Poses(poses) => call((body, poses).into()),
+            MovementKind::Link(link) => call((body, &link.trajectory()?).into()),
         }
     }
 }
@@ -183,12 +183,12 @@ impl LinkMotion {
 
 /// Makes a motion from its numbers.
 pub(crate) fn motion_from_numbers(numbers: &[f64]) -> Result<Motion, InputError> {
-    let at = |from: usize| vector(numbers.get(from..).unwrap_or_default());
+    let vector_at = |start: usize| vector(numbers.get(start..).unwrap_or_default());
     Motion::about(
         pose_from_numbers(numbers)?,
-        at(POSE_LENGTH),
-        at(POSE_LENGTH + 3),
-        at(POSE_LENGTH + 6),
+        vector_at(POSE_LENGTH),
+        vector_at(POSE_LENGTH + 3),
+        vector_at(POSE_LENGTH + 6),
     )
 }
 

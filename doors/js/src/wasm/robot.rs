@@ -94,9 +94,9 @@ impl RobotBuilder {
         Ok(())
     }
 
-    /// Excludes a pair of links from the check.
-    pub fn may_touch(&mut self, one: &str, other: &str) {
-        self.may_touch.push([one.to_owned(), other.to_owned()]);
+    /// Excludes a pair of links from the checked pairs.
+    pub fn may_touch(&mut self, a: &str, b: &str) {
+        self.may_touch.push([a.to_owned(), b.to_owned()]);
     }
 
     /// Builds the robot.
@@ -106,9 +106,9 @@ impl RobotBuilder {
     pub fn build(self) -> Result<Robot, Fault> {
         let robot = rigid_ccd_robot::Robot::new(self.links, self.joints)?;
         let mut pairs = LinkPairs::from_robot(&robot);
-        for [one, other] in &self.may_touch {
+        for [a, b] in &self.may_touch {
             let reason = SkipReason::Disabled("may touch".into());
-            pairs.skip(robot.link_number(one)?, robot.link_number(other)?, reason);
+            pairs.skip(robot.link_number(a)?, robot.link_number(b)?, reason);
         }
         Ok(Robot { robot, pairs })
     }
@@ -117,18 +117,18 @@ impl RobotBuilder {
 impl RobotBuilder {
     /// Returns the link with a name. Adds it if there is none.
     fn link(&mut self, name: &str) -> &mut Link {
-        let found = self.links.iter().position(|link| link.name == name);
-        let number = found.unwrap_or_else(|| {
+        let index = self.links.iter().position(|link| link.name == name);
+        let index = index.unwrap_or_else(|| {
             self.links.push(Link::named(name));
             self.links.len() - 1
         });
-        &mut self.links[number]
+        &mut self.links[index]
     }
 }
 
 #[wasm_bindgen]
 impl Robot {
-    /// Returns the names of the joints with a position, in the order of configurations.
+    /// Returns the names of the independent joints, in the order of a configuration.
     pub fn joint_names(&self) -> Vec<String> {
         self.robot
             .independent_joint_names()
@@ -178,16 +178,17 @@ impl Robot {
         duration: f64,
     ) -> Result<Movement, Fault> {
         let robot = &self.robot;
-        let to = robot.link_number(link)?;
-        let from = seen_from.map_or(Ok(robot.base()), |name| robot.link_number(&name))?;
-        let chain = robot.chain_between(from, to);
-        let positions = |what: &str, configuration: &[f64]| {
+        let link_index = robot.link_number(link)?;
+        let reference_index =
+            seen_from.map_or(Ok(robot.base()), |name| robot.link_number(&name))?;
+        let chain = robot.chain_between(reference_index, link_index);
+        let positions = |argument_name: &str, configuration: &[f64]| {
             let positions = chain.positions(robot, configuration);
-            positions.map_err(Fault::of_element(what))
+            positions.map_err(Fault::of_element(argument_name))
         };
         let ends = [positions("start", start)?, positions("end", end)?];
-        let turning = chain.chain().joints().iter().enumerate();
-        let angles = turning
+        let joints = chain.chain().joints().iter().enumerate();
+        let angles = joints
             .filter(|(_, joint)| matches!(joint.kind(), JointKind::Revolute(_)))
             .flat_map(|(k, _)| [ends[0][k], ends[1][k]]);
         tell(angles.filter_map(Remark::remark_on_joint));

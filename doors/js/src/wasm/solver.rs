@@ -54,7 +54,7 @@ pub enum Question {
 }
 
 /// Answers questions about two bodies. JavaScript writes the numbers of a question to the solver's memory, and reads
-/// those of the answer there.
+/// the numbers of the answer there.
 #[wasm_bindgen]
 pub struct Solver {
     solver: rigid_ccd::Solver,
@@ -97,8 +97,8 @@ impl Solver {
         size_of::<Numbers>() / size_of::<f64>()
     }
 
-    /// Returns the names and indices of the numbers of the solver, of an answer and of a contact, as lines such as
-    /// `contact.witness_a 2`.
+    /// Returns the layout of the numbers as lines such as `contact.witness_a 2`: the name of a struct and of its field, and
+    /// the index of the field's first number.
     pub fn layout() -> String {
         let groups = [
             ("solver", Numbers::FIELDS),
@@ -114,8 +114,8 @@ impl Solver {
 
     /// Sets the movement of body 0 or 1 for the next question.
     pub fn move_by(&mut self, body: usize, movement: &Movement) {
-        if let Some(place) = self.movements.get_mut(body) {
-            *place = Some(movement.clone());
+        if let Some(slot) = self.movements.get_mut(body) {
+            *slot = Some(movement.clone());
         }
     }
 
@@ -148,7 +148,7 @@ impl Solver {
             let latest = movement.latest_duration();
             if duration > latest {
                 return Err(Fault::of_range(format!(
-                    "duration: {duration} is later than {latest}, the end of the link's motion: its joints would go on"
+                    "duration: {duration} is later than {latest}, the end of the link's motion, after which joints could exceed their limits"
                 )));
             }
         }
@@ -156,8 +156,8 @@ impl Solver {
         let [motion_a, motion_b] = [&self.numbers.motion_a, &self.numbers.motion_b]
             .map(|numbers| motion_from_numbers(numbers));
         let solver = &mut self.solver;
-        let by_numbers = [(&move_a, &motion_a), (&move_b, &motion_b)].into_iter();
-        let angular_velocities = by_numbers.filter_map(|(movement, motion)| match movement {
+        let movements = [(&move_a, &motion_a), (&move_b, &motion_b)].into_iter();
+        let angular_velocities = movements.filter_map(|(movement, motion)| match movement {
             Some(movement) => movement.constant_spin(),
             None => motion.as_ref().ok().map(Motion::angular_velocity),
         });
@@ -175,11 +175,11 @@ fn with_moving<T>(
     movement: Option<Movement>,
     motion: Result<Motion, InputError>,
     body: &Body,
-    then: impl FnOnce(MovingBody<'_>) -> Result<T, InputError>,
+    call: impl FnOnce(MovingBody<'_>) -> Result<T, InputError>,
 ) -> Result<T, InputError> {
     match movement {
-        Some(movement) => movement.with_body(&body.body, then),
-        None => then((&*body.body, motion?).into()),
+        Some(movement) => movement.with_body(&body.body, call),
+        None => call((&*body.body, motion?).into()),
     }
 }
 

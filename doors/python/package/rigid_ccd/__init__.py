@@ -23,20 +23,18 @@ and ROS.
 
 from ._answers import Contact, Distance, PathContact, PathDistance, PathRange
 from ._edges_query import EdgesQuery
+from ._errors import InputError, InterruptError, UnresolvedError
 from ._proofs import Proof, check_folder
 from ._query import TableQuery
 from ._rigid_ccd import (
     Body,
     Cell,
-    InputError,
-    InterruptError,
     Joint,
     LinkTrajectory,
     Motion,
     PosePath,
     Robot,
     Table,
-    UnresolvedError,
     check_proof,
     closest_approach,
     distance,

@@ -16,9 +16,8 @@ class Contact:
         witness_a: the point of body A nearest to B, in world coordinates at that time.
         witness_b: the point of body B nearest to A.
         normal: the unit normal from A to B; None if one body is inside the other.
-        distance: bounds of the distance at that time, negative for pieces that intersect; None in the same case as
-            `normal`.
-        feature_a: the feature of A in contact, such as "v7", "e3-7", "f12" or "p0"; None in the same case as `normal`.
+        distance: bounds of the distance at that time, negative for pieces that intersect; None if `normal` is None.
+        feature_a: the feature of A in contact, such as "v7", "e3-7", "f12" or "p0"; None if `normal` is None.
         feature_b: the feature of B in contact.
     """
 
@@ -36,8 +35,7 @@ class Contact:
 class Distance:
     """Bounds of the least distance of two bodies, to within the tolerance, or as narrow as a clearance requires.
 
-
-    Bodies may extend beyond their shapes by their `excess`. Bounds are those of the shapes: `upper` includes the sum of
+    Bodies may extend beyond their shapes by their `excess`. The bounds hold for the shapes: `upper` includes the sum of
     both excesses, and a clearance is "violated" only if the shapes violate it.
 
     Attributes:
@@ -64,7 +62,7 @@ class Distance:
 
 @dataclass(frozen=True)
 class PathContact:
-    """A pair of items of a cell that touches on a path, or is nearest there.
+    """A pair of items of a cell, at the point of a path at which it touches or is nearest.
 
     Attributes:
         segment: the index of the segment between two configurations, from 0. An edge has only segment 0.
@@ -77,7 +75,7 @@ class PathContact:
         feature_a, feature_b: the vertex, edge or face of the mesh that has the witness point: "v7", "e3-4" or "f5".
             None for a convex body or a hull, and if one body is inside the other.
         tolerance: a contact is within this distance beyond the margin. It is the tolerance of the settings, or larger
-            if rounding of positions does not allow less, far from the base or after thousands of turns.
+            if rounding of positions requires it, far from the base or after thousands of turns.
     """
 
     segment: int
@@ -96,8 +94,8 @@ class PathContact:
 class PathDistance:
     """Bounds of the least distance on a path, to within the tolerance unless a limit was reached.
 
-    Bounding shapes, such as hulls of meshes, may touch although the shapes inside do not. Then `lower` is 0, and `upper`
-    is the sum of both excesses.
+    If bodies that enclose their shapes, such as hulls of meshes, overlap, `lower` is 0, and `upper` is the sum of both
+    excesses, although the shapes may be apart.
 
     Attributes:
         lower: a lower bound of the distance of all pairs on the whole path.
@@ -105,7 +103,7 @@ class PathDistance:
         nearest: the nearest pair; None if no pair was measured.
         limit: the limit that ended the search; None if there was none.
         tolerance: unless a limit was reached, the bounds differ by at most 1.001 times this, plus the excesses of the
-            bodies. It is the tolerance of the settings, or larger if rounding of positions does not allow less.
+            bodies. It is the tolerance of the settings, or larger if rounding of positions requires it.
         clearance: whether the required clearance is "kept", "violated", or left "unverified" by the bounds; None if
             none was required.
     """

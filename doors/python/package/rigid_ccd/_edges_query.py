@@ -7,14 +7,15 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from ._errors import InputError
 from ._query import like
-from ._rigid_ccd import Cell, InputError, Table
+from ._rigid_ccd import Cell, Table
 
 PathQuestion: TypeAlias = Literal["is-free", "first-contact", "closest-approach"]
 
 
 class EdgesQuery:
-    """A callable that answers a question about a robot's edges, one table after another.
+    """A callable that answers a question about each edge in a table of a robot's edges.
 
     Pass it as a function of tables to Ray Data's `map_batches`, Dask's `map_partitions`, Spark's `mapInArrow`, or a
     pool of processes. It can be pickled, with its cell.
@@ -26,8 +27,8 @@ class EdgesQuery:
     Args:
         cell: the cell. It is copied: later changes have no effect.
         question: "is-free", "first-contact" or "closest-approach".
-        rest: the positions of joints without columns in the tables.
-        settings: those of `Cell.answer_edges`. `threads` is 1 by default, because engines start a task for each core.
+        rest: the positions of joints that have no columns in the tables, by name.
+        settings: the same as for `Cell.answer_edges`. `threads` is 1 by default, because engines start a task for each core.
 
     >>> from rigid_ccd import Body, Cell, EdgesQuery, Joint, Robot
     >>> slider = Joint.prismatic("x", "rail", "cart", axis=[1, 0, 0])
@@ -42,7 +43,7 @@ class EdgesQuery:
     ) -> None:
         # A copy, so that later changes of the cell have no effect.
         self._cell: Cell = copy.copy(cell)
-        self._question, self._rest = question, {joint: _position(joint, at) for joint, at in (rest or {}).items()}
+        self._question, self._rest = question, {joint: _position(joint, position) for joint, position in (rest or {}).items()}
         self._settings = {"threads": 1, **settings}
         unknown = set(self._rest) - set(cell.robot.joint_names)
         if unknown:
@@ -87,14 +88,14 @@ class EdgesQuery:
                 elif column is None:
                     missing.append(prefix + joint)
                 elif joint in self._rest:
-                    raise InputError(f"edges: there are columns for {joint}, which rests")
+                    raise InputError(f"edges: {joint} has columns, but also a position in `rest`")
                 else:
                     name, is_in_degrees = column
                     positions = _numbers(table, name)
                     ends[end, :, k] = np.deg2rad(positions) if is_in_degrees else positions
                     known.add(name)
         if missing:
-            raise InputError(f"edges: no column {', '.join(missing)}; `rest` says where joints without columns rest")
+            raise InputError(f"edges: no column {', '.join(missing)}; `rest` gives positions to joints without columns")
         if unknown := set(table) - known:
             raise InputError(f"edges: unknown column {', '.join(sorted(unknown))}")
         return ends
@@ -107,10 +108,10 @@ class EdgesQuery:
         return f"EdgesQuery({self._cell!r}, question={self._question!r}, rest={self._rest!r}{settings})"
 
 
-def _position(joint: str, at: Any) -> float:
-    if isinstance(at, (str, bytes, bool, np.bool_)):
-        raise InputError(f"rest: {joint}: a number is needed, not {at!r}")
-    return float(at)
+def _position(joint: str, position: Any) -> float:
+    if isinstance(position, (str, bytes, bool, np.bool_)):
+        raise InputError(f"rest: {joint}: a number is needed, not {position!r}")
+    return float(position)
 
 
 def _numbers(table: Table, name: str) -> NDArray[Any]:

@@ -9,7 +9,7 @@ Report = Callable[[int, int | None], object]
 
 
 def reporter(progress: Progress) -> tuple[Report | None, Callable[[], object]]:
-    """Returns two functions. The first reports the amount of work done and the total; the second ends the report."""
+    """Returns two functions: the first reports the amount of work done and the total, and the second ends the report."""
     if progress is None or progress is False:
         return None, lambda: None
     if progress is True:
@@ -30,11 +30,11 @@ def _own_bar() -> tuple[Report, Callable[[], object]]:
         raise ModuleNotFoundError(message, name="tqdm") from error
 
     bar = tqdm(total=None)
-    shown: Any = bar
+    tqdm_bar: Any = bar
 
     def report(done: int, total: int | None) -> None:
-        shown.total = total
-        shown.update(done - shown.n)
+        tqdm_bar.total = total
+        tqdm_bar.update(done - tqdm_bar.n)
 
     return report, bar.close
 

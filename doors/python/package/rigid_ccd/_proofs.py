@@ -6,8 +6,9 @@ from os import PathLike
 from pathlib import Path
 from typing import Literal
 
+from ._errors import InputError, InterruptError
 from ._progress import reporter
-from ._rigid_ccd import InputError, InterruptError, check_proof, proof_statement, read_proof
+from ._rigid_ccd import check_proof, proof_statement, read_proof
 from ._settings import Progress
 
 
@@ -103,27 +104,27 @@ def check_folder(folder: str | PathLike[str], *, progress: Progress = None) -> d
     if not files:
         raise InputError(f"{folder}: there is no proof in this folder")
     meshes = _meshes(Path(folder))
-    report, end = reporter(progress)
-    known: dict[str, str] = {}
+    report, end_report = reporter(progress)
+    verdicts: dict[str, str] = {}
     try:
         for file in files:
-            known[file.stem] = Proof._read(file, meshes).check()
+            verdicts[file.stem] = Proof._read(file, meshes).check()
             if report is not None:
-                report(len(known), len(files))
+                report(len(verdicts), len(files))
     except KeyboardInterrupt as cause:
-        interrupted = InterruptError(f"interrupted; {len(known)} of {len(files)} proofs are checked")
-        interrupted.results = known
+        interrupted = InterruptError(f"interrupted; {len(verdicts)} of {len(files)} proofs are checked")
+        interrupted.results = verdicts
         raise interrupted from cause
     finally:
-        end()
-    return known
+        end_report()
+    return verdicts
 
 
 def _files(folder: str | PathLike[str], name: str) -> tuple[Path, Path]:
     """Return a folder, and the path of a proof in it. The name may end in .proof."""
     stem = name.removesuffix(".proof")
     if not stem or Path(stem).name != stem:
-        raise InputError(f"name: {name!r} is no name of a file")
+        raise InputError(f"name: {name!r} is not the name of a file")
     return Path(folder), Path(folder) / f"{stem}.proof"
 
 

@@ -7,14 +7,15 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from typing import Any, Literal, TypeAlias
 
-from ._rigid_ccd import Body, InputError, Table
+from ._errors import InputError
+from ._rigid_ccd import Body, Table
 from ._tables import Question, answer
 
 BodyOrFile: TypeAlias = Body | str | os.PathLike[str]
 
 
 class TableQuery:
-    """A callable that answers a question about two bodies, one table of motions after another.
+    """A callable that answers a question about two bodies for each row of a table of motions.
 
     Pass it as a function of tables to Ray Data's `map_batches`, Dask's `map_partitions`, Spark's `mapInArrow`, or a
     pool of processes. It can be pickled. Each process loads or unpickles a body once.
@@ -31,7 +32,7 @@ class TableQuery:
             "distance".
         paths: "refused" refuses tables with a column t. If an engine split a path, the interval between its parts would
             not be checked. "whole" asserts that all rows of an id are in one table, as after a group-by.
-        settings: those of `first_contacts` or `closest_approaches`. `threads` is 1 by default, because engines start a
+        settings: the same as for `first_contacts` or `closest_approaches`. `threads` is 1 by default, because engines start a
             task for each core. `micros` is False by default, so that equal answers give equal tables.
 
     >>> import pickle
@@ -58,7 +59,7 @@ class TableQuery:
                 raise TypeError(f"a, b: a Body or the path of a file is needed, not {type(body).__name__}")
         if paths not in ("refused", "whole"):
             raise InputError(f"paths: `refused` or `whole` is needed, not `{paths}`")
-        answer(self._question, _NOTHING, _NOTHING, {"a_px": []}, **self._settings)
+        answer(self._question, _PLACEHOLDER_BODY, _PLACEHOLDER_BODY, {"a_px": []}, **self._settings)
 
     def __call__(self, motions: Any) -> Any:
         """Answers a table, or an iterator of tables."""
@@ -75,24 +76,25 @@ class TableQuery:
         if hasattr(motions, "empty_table"):
             return self.schema(motions.empty_table()).schema
         empty = self._table(motions).take([])
-        return like(motions, answer(self._question, _NOTHING, _NOTHING, empty, **self._settings))
+        return like(motions, answer(self._question, _PLACEHOLDER_BODY, _PLACEHOLDER_BODY, empty, **self._settings))
 
     def _each(self, tables: Iterable[Any]) -> Iterator[Any]:
         for motions in tables:
             yield self(motions)
 
     def _table(self, motions: Any) -> Table:
-        """Converts to a `Table`.
+        """Converts motions to a `Table`.
 
-        Raises InputError without a column `id`, or with a column `t` unless paths='whole': an engine may split a path's
-        rows between partitions.
+        Raises:
+            InputError: there is no column `id`, or there is a column `t` without paths='whole', because an engine may
+                split a path's rows between partitions.
         """
         table = Table(motions)
         if "id" not in table:
             raise InputError("motions: no column `id`: engines return rows in any order")
         if "t" in table and self._paths != "whole":
             raise InputError(
-                "motions: column `t`: engines cut paths; group the rows by id, and say TableQuery(..., paths='whole')"
+                "motions: column `t`: engines split paths; group the rows by id, and pass paths='whole' to TableQuery"
             )
         return table
 
@@ -107,45 +109,45 @@ class TableQuery:
         return f"TableQuery({self._a!r}, {self._b!r}, question={self._question!r}, paths={self._paths!r}{settings})"
 
 
-_NOTHING = Body.sphere(0)
+_PLACEHOLDER_BODY = Body.sphere(0)
 
 
-def _body(given: BodyOrFile) -> Body:
-    if isinstance(given, Body):
-        return given
-    there = os.stat(given)
-    return _load(os.fspath(given), (there.st_mtime_ns, there.st_size))
+def _body(body: BodyOrFile) -> Body:
+    if isinstance(body, Body):
+        return body
+    status = os.stat(body)
+    return _load(os.fspath(body), (status.st_mtime_ns, status.st_size))
 
 
 @lru_cache(maxsize=32)
-def _load(path: str, _changed: tuple[int, int]) -> Body:
-    """Loads a file, or returns the cached body if the file is unchanged."""
+def _load(path: str, _time_and_size: tuple[int, int]) -> Body:
+    """Loads a file, or returns the cached body if the time of modification and the size of the file are unchanged."""
     return Body.from_file(path)
 
 
-def _packed(given: BodyOrFile) -> bytes | str | os.PathLike[str]:
-    return pickle.dumps(given) if isinstance(given, Body) else given
+def _packed(body: BodyOrFile) -> bytes | str | os.PathLike[str]:
+    return pickle.dumps(body) if isinstance(body, Body) else body
 
 
-def _unpacked(given: bytes | str | os.PathLike[str]) -> BodyOrFile:
-    return _unpickle(given) if isinstance(given, bytes) else given
+def _unpacked(packed: bytes | str | os.PathLike[str]) -> BodyOrFile:
+    return _unpickle(packed) if isinstance(packed, bytes) else packed
 
 
 @lru_cache(maxsize=32)
-def _unpickle(body: bytes) -> Body:
+def _unpickle(pickled: bytes) -> Body:
     """Unpickles a body once per process."""
-    made: Body = pickle.loads(body)
-    return made
+    body: Body = pickle.loads(pickled)
+    return body
 
 
 def _library(motions: Any) -> str:
     """Returns the name of the library that defines the class of a table, or its base class."""
-    modules = [of.__module__.partition(".")[0] for of in type(motions).__mro__]
+    modules = [base.__module__.partition(".")[0] for base in type(motions).__mro__]
     return next((name for name in modules if name in ("pyarrow", "pandas", "polars")), modules[0])
 
 
 def like(motions: Any, results: Table) -> Any:
-    """Converts results to the kind of table of the motions."""
+    """Converts results to the kind of table that the motions are."""
     library = _library(motions)
     if library == "pyarrow":
         pyarrow: Any = sys.modules["pyarrow"]
@@ -161,7 +163,7 @@ def like(motions: Any, results: Table) -> Any:
 
 
 def _frame(motions: Any, results: Table) -> Any:
-    """Makes a pandas frame. Its types do not depend on values, so that parts of a table can be concatenated."""
+    """Makes a pandas frame whose types do not depend on values, so that parts of a table can be concatenated."""
     text = "str" if int(sys.modules["pandas"].__version__.partition(".")[0]) >= 3 else "string"
     types = {name: text for name in ("status", "a", "b", "feature_a", "feature_b", "reason")}
     types |= {name: "Int64" for name in ("iterations", "oracle_calls")}

@@ -17,15 +17,12 @@ from ._settings import Progress as _Progress
 __all__ = [
     "Body",
     "Cell",
-    "InputError",
-    "InterruptError",
     "Joint",
     "LinkTrajectory",
     "Motion",
     "PosePath",
     "Robot",
     "Table",
-    "UnresolvedError",
     "answer_table",
     "check_proof",
     "closest_approach",
@@ -67,21 +64,6 @@ _Pieces: TypeAlias = Literal["auto", "triangles", "patches", "hull", "outer-hull
 _Unit: TypeAlias = Literal["um", "mm", "cm", "m", "in", "ft"]
 _Curve: TypeAlias = _Polynomials | _Spline
 _Movement: TypeAlias = Motion | PosePath | LinkTrajectory
-
-class InputError(ValueError):
-    results: Any
-
-class UnresolvedError(RuntimeError):
-    results: Proof | list[Proof] | None
-    safe_until: float | None
-    lower: float | None
-    upper: float | None
-
-class InterruptError(KeyboardInterrupt):
-    results: Any
-    safe_until: float | None
-    lower: float | None
-    upper: float | None
 
 @final
 class Body:
@@ -346,8 +328,8 @@ class Cell:
         progress: _Progress = None,
         **settings: Unpack[_OfPaths],
     ) -> Table: ...
-    def __reduce__(self) -> tuple[type[Cell], tuple[Robot], tuple[Any, ...]]: ...
-    def __setstate__(self, state: tuple[Any, ...]) -> None: ...
+    def __reduce__(self) -> tuple[type[Cell], tuple[Robot], dict[str, Any]]: ...
+    def __setstate__(self, state: dict[str, Any]) -> None: ...
 
 @final
 class Table:
@@ -417,9 +399,8 @@ def answer_table(
     b: Body,
     motions: Any,
     *,
-    clearance: float | None = None,
     threads: int | None = None,
     progress: _Progress = None,
     micros: bool = True,
-    **settings: Unpack[_OfContacts],
+    **settings: Any,
 ) -> Table: ...

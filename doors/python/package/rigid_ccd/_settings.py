@@ -11,7 +11,7 @@ class _Bar(Protocol):
 
 
 Progress: TypeAlias = Callable[[int, int | None], object] | _Bar | bool | None
-"""A function of the numbers of answered rows and of all rows, a bar of tqdm, True for a new bar, or None."""
+"""A function of two numbers (answered rows and all rows), a bar of tqdm, True for a new bar, or None."""
 
 
 class OfDistances(TypedDict, total=False):
@@ -41,7 +41,7 @@ class OfApproaches(OfDistances, total=False):
 
 
 class OfPaths(OfPathContacts, total=False):
-    """Settings of `Cell.answer_edges` and `Cell.answer_paths`. `clearance` is for closest approaches, the others for contacts."""
+    """Settings of `Cell.answer_edges` and `Cell.answer_paths`. Closest approaches take `clearance` in place of `margin` and `start`."""
 
     clearance: float | None
 

@@ -24,9 +24,9 @@ def first_contacts(a: Body, b: Body, motions: Motions, **settings: Unpack[Contac
         motions: any object that supports the Arrow PyCapsule protocol (a table or a stream of pyarrow, polars, pandas
             3, duckdb), or a dict of arrays. Columns of float64 are not copied; do not write to them during the call.
             Columns are found by name, in any order, and have the defaults in parentheses. A null cell or NaN makes its
-            row an error. But if a row has an end pose, its velocities of that body may be null, and if it has
-            velocities, the end pose may be null. The index of a pandas frame is dropped unless it has a name. The
-            columns are:
+            row an error, with one exception: for each body, a row may have an end pose with null velocities, or
+            velocities with a null end pose. The index of a pandas frame is dropped unless it has a name. The columns
+            are:
             id: the name of the row, of any type. Results have the same ids; dictionary encoding is removed. Without
                 this column, ids are row indices from 0.
             a_px a_py a_pz: the position of A at the start (0).
@@ -84,7 +84,7 @@ def first_contacts(a: Body, b: Body, motions: Motions, **settings: Unpack[Contac
 def are_free(a: Body, b: Body, motions: Motions, **settings: Unpack[ContactsOfTables]) -> Table:
     """Finds the rows in which two bodies stay apart by more than the margin.
 
-    Rows with a contact take less time than with `first_contacts`. Their time and status are those of some contact, not
+    Rows with a contact take less time than with `first_contacts`. Their time and status belong to some contact, not
     necessarily the first one.
     """
     return answer("is-free", a, b, motions, **settings)

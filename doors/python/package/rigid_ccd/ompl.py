@@ -26,13 +26,13 @@ from ._settings import OfContacts
 class _States:
     """Converts states of a real vector space to configurations of a robot, and answers questions about them."""
 
-    def __init__(self, cell: Cell, held: Mapping[str, float] | None, settings: OfContacts) -> None:
-        held = held or {}
+    def __init__(self, cell: Cell, fixed: Mapping[str, float] | None, settings: OfContacts) -> None:
+        fixed = fixed or {}
         names = cell.robot.joint_names
-        if unknown := set(held) - set(names):
-            raise ValueError(f"held: the robot has no joint {', '.join(sorted(unknown))}")
-        self.planned = [k for k, name in enumerate(names) if name not in held]
-        self._configuration = np.array([held.get(name, 0.0) for name in names])
+        if unknown := set(fixed) - set(names):
+            raise ValueError(f"fixed: the robot has no joint {', '.join(sorted(unknown))}")
+        self.planned = [k for k, name in enumerate(names) if name not in fixed]
+        self._configuration = np.array([fixed.get(name, 0.0) for name in names])
         self._cell, self._settings = cell, settings
 
     def is_free(self, *states: Any) -> bool:
@@ -49,17 +49,17 @@ class _States:
         return path
 
 
-def space_of(cell: Cell, held: Mapping[str, float] | None = None) -> Any:
-    """Returns the real vector space of a robot's joints within their limits.
+def space_of(cell: Cell, fixed: Mapping[str, float] | None = None) -> Any:
+    """Returns the real vector space of a robot's independent joints, bounded by their limits.
 
     Args:
         cell: the cell with the robot.
-        held: the positions of joints that do not move, by their names.
+        fixed: the positions of joints that do not move, by their names.
     """
-    planned = _States(cell, held, {}).planned
+    planned = _States(cell, fixed, {}).planned
     limits = cell.robot.limits[planned]
     if not np.isfinite(limits).all():
-        raise ValueError("a joint without limits: make the space, with bounds of your own")
+        raise ValueError("a joint has no limits: make the space yourself, with bounds for it")
     space, bounds = base.RealVectorStateSpace(len(planned)), base.RealVectorBounds(len(planned))
     for k, (low, high) in enumerate(limits):
         bounds.setLow(k, float(low))
@@ -72,28 +72,28 @@ class StateValidityChecker(base.StateValidityChecker):  # type: ignore[misc, unu
     """Accepts a state if the robot touches nothing.
 
     Args:
-        information: the information of a real vector space that has a dimension for each joint not in `held`.
+        information: the information of a real vector space that has a dimension for each joint not in `fixed`.
         cell: the cell, which may change between calls.
-        held: the positions of joints that do not move, by their names.
-        settings: those of `Cell.is_free`.
+        fixed: the positions of joints that do not move, by their names.
+        settings: the same as for `Cell.is_free`.
     """
 
     def __init__(
         self,
         information: Any,
         cell: Cell,
-        held: Mapping[str, float] | None = None,
+        fixed: Mapping[str, float] | None = None,
         **settings: Unpack[OfContacts],
     ) -> None:
         super().__init__(information)
-        self._states = _States(cell, held, settings)
+        self._states = _States(cell, fixed, settings)
 
     def isValid(self, state: Any) -> bool:  # noqa: N802
         return self._states.is_free(state)
 
 
 class MotionValidator(base.MotionValidator):  # type: ignore[misc, unused-ignore]
-    """Accepts a motion if it is proven that the robot touches nothing between its two states.
+    """Accepts a motion between two states if it is proven that the robot touches nothing on it.
 
     The arguments are those of `StateValidityChecker`.
     """
@@ -102,11 +102,11 @@ class MotionValidator(base.MotionValidator):  # type: ignore[misc, unused-ignore
         self,
         information: Any,
         cell: Cell,
-        held: Mapping[str, float] | None = None,
+        fixed: Mapping[str, float] | None = None,
         **settings: Unpack[OfContacts],
     ) -> None:
         super().__init__(information)
-        self._states = _States(cell, held, settings)
+        self._states = _States(cell, fixed, settings)
 
     def checkMotion(self, start: Any, end: Any) -> bool:  # noqa: N802
         return self._states.is_free(start, end)

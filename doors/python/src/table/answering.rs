@@ -1,14 +1,14 @@
 //! Answers the rows of a table on all cores.
 
-use super::batch::{IdReading, id_field, unreadable_error};
+use super::batch::{id_field, unreadable_error};
 use super::input::Reader;
 use super::pieces::{ChunkSize, RowChunk, RowChunks, find_columns};
 use super::results;
 use arrow_array::RecordBatch;
 use ccd_tables::batch::{BodyPair, TimedAnswer, parallel_solver};
 use ccd_tables::columns::Columns;
-use ccd_tables::movements::{MovementRow, Movements};
 use ccd_tables::motions::{RowProblem, TableError};
+use ccd_tables::movements::{MovementRow, Movements};
 use ccd_tables::results::ResultRow;
 use rigid_ccd::Question;
 use rigid_ccd::answer::Limit;
@@ -32,7 +32,7 @@ pub(crate) struct TableQuestion<'a> {
 /// The results of a table's rows up to the first row without an answer, and the error that ended the table, if any.
 pub(crate) struct TableAnswers {
     pub(crate) results: RecordBatch,
-    pub(crate) fault: Option<TableError>,
+    pub(crate) error: Option<TableError>,
     /// The remarks on probable mistakes in the rows.
     pub(crate) remarks: Vec<Remark>,
 }
@@ -42,47 +42,47 @@ pub(crate) struct TableAnswers {
 /// # Errors
 /// The columns cannot be used.
 pub(crate) fn answer(
-    asked: TableQuestion<'_>,
+    table_question: TableQuestion<'_>,
     reader: Reader,
     stop: &Arc<AtomicBool>,
     done: &AtomicUsize,
 ) -> Result<TableAnswers, TableError> {
     let columns = find_columns(&reader)?;
-    let schema = results::schema(asked.question, id_field(&reader.schema()));
+    let schema = results::schema(table_question.question, id_field(&reader.schema()));
     let schema = Arc::new(schema.map_err(unreadable_error)?);
-    let settings = settings_with_stop(asked, stop);
-    let asked = TableQuestion {
+    let settings = table_question.settings.clone().stopped_by(stop);
+    let table_question = TableQuestion {
         settings: &settings,
-        ..asked
+        ..table_question
     };
-    let mut solver = parallel_solver(asked.thread_count, Solver::new);
+    let mut solver = parallel_solver(table_question.thread_count, Solver::new);
     let (size, source) = (ChunkSize::new(solver.threads()), (reader, &columns));
-    let mut pieces = RowChunks::new(source, asked.question, IdReading::WithoutIds, &size, stop)?;
-    let found = solver.map_iter(pieces.by_ref(), |solver, piece| {
+    let mut chunks = RowChunks::new(source, table_question.question, &size, stop)?;
+    let batches = solver.map_iter(chunks.by_ref(), |solver, chunk| {
         let start = Instant::now();
-        let found = answer_rows(asked, &piece, &columns, solver, stop);
-        done.fetch_add(found.len(), Ordering::Relaxed);
-        size.adapt_chunk_size(piece.row_count(), start.elapsed());
-        let is_whole = found.len() == piece.row_count();
-        let found = results::batch(asked.question, piece.ids(found.len()), &found);
-        found.map(|found| (found, is_whole))
+        let rows = answer_rows(table_question, &chunk, &columns, solver, stop);
+        done.fetch_add(rows.len(), Ordering::Relaxed);
+        size.adapt_chunk_size(chunk.row_count(), start.elapsed());
+        let is_whole = rows.len() == chunk.row_count();
+        let batch = results::batch(table_question.question, chunk.ids(rows.len()), &rows);
+        batch.map(|batch| (batch, is_whole))
     });
-    let found: Vec<_> = found
+    let batches: Vec<_> = batches
         .into_iter()
         .collect::<Result<_, _>>()
         .map_err(unreadable_error)?;
     // In a chunk that was stopped, the first rows have answers.
-    let stopped = found.iter().position(|&(_, is_whole)| !is_whole);
-    let first = stopped.map_or(found.len(), |stopped| stopped + 1);
-    let answered: Vec<RecordBatch> = found
+    let stopped = batches.iter().position(|&(_, is_whole)| !is_whole);
+    let batch_count = stopped.map_or(batches.len(), |stopped| stopped + 1);
+    let answered: Vec<RecordBatch> = batches
         .into_iter()
-        .map(|(found, _)| found)
-        .take(first)
+        .map(|(batch, _)| batch)
+        .take(batch_count)
         .collect();
     Ok(TableAnswers {
         results: results::concatenate(&schema, &answered).map_err(unreadable_error)?,
-        remarks: pieces.remarks(&columns),
-        fault: pieces.fault,
+        remarks: chunks.remarks(&columns),
+        error: chunks.error,
     })
 }
 
@@ -91,38 +91,36 @@ pub(crate) fn answer(
 /// Reads all rows first, then answers all, then makes all results. Done row by row, each of the three steps would start
 /// with cold caches.
 fn answer_rows(
-    asked: TableQuestion<'_>,
-    piece: &RowChunk,
+    table_question: TableQuestion<'_>,
+    chunk: &RowChunk,
     columns: &Columns,
     solver: &mut Solver,
     stop: &AtomicBool,
 ) -> Vec<ResultRow> {
-    let rows: Vec<MovementRow> = piece.read_rows(columns).collect();
+    let rows: Vec<MovementRow> = chunk.read_rows(columns).collect();
     let answered: Vec<RowAnswer> = (rows.iter())
         .take_while(|_| !stop.load(Ordering::Relaxed))
-        .map_while(|row| answer_row(asked, row, solver))
+        .map_while(|row| answer_row(table_question, row, solver))
         .collect();
     rows.iter()
         .zip(&answered)
-        .map(|(row, answer)| result_row(asked, row, answer))
+        .map(|(row, answer)| result_row(table_question, row, answer))
         .collect()
-}
-
-/// Returns the settings of the question with `stop` as the flag that stops queries.
-fn settings_with_stop(asked: TableQuestion<'_>, stop: &Arc<AtomicBool>) -> Settings {
-    Settings {
-        stop: Some(Arc::clone(stop)),
-        ..asked.settings.clone()
-    }
 }
 
 /// The answer of a row, or the defect of the row.
 type RowAnswer = Result<TimedAnswer, RowProblem>;
 
 /// Answers one row. Returns `None` if the flag stopped the query.
-fn answer_row(asked: TableQuestion<'_>, row: &MovementRow, solver: &mut Solver) -> Option<RowAnswer> {
+fn answer_row(
+    table_question: TableQuestion<'_>,
+    row: &MovementRow,
+    solver: &mut Solver,
+) -> Option<RowAnswer> {
     let answer = match row {
-        Ok((_, course)) => answer_timed(asked, course, solver).map_err(RowProblem::from),
+        Ok((_, movements)) => {
+            answer_timed(table_question, movements, solver).map_err(RowProblem::from)
+        }
         Err(error) => Err(error.problem.clone()),
     };
     let is_stopped =
@@ -131,30 +129,36 @@ fn answer_row(asked: TableQuestion<'_>, row: &MovementRow, solver: &mut Solver) 
 }
 
 fn answer_timed(
-    asked: TableQuestion<'_>,
-    course: &Movements,
+    table_question: TableQuestion<'_>,
+    movements: &Movements,
     solver: &mut Solver,
 ) -> Result<TimedAnswer, InputError> {
     let start = Instant::now();
-    let query = asked
-        .bodies
-        .build_query(asked.question, course, asked.settings)?;
-    let answer = solver.answer_query(asked.question, &query)?;
+    let query = table_question.bodies.build_query(
+        table_question.question,
+        movements,
+        table_question.settings,
+    )?;
+    let answer = solver.answer_query(table_question.question, &query)?;
     let micros = start.elapsed().as_secs_f64() * 1e6;
     Ok(TimedAnswer { answer, micros })
 }
 
 /// Returns the row of results from the answer or the error of one row of the table.
-fn result_row(asked: TableQuestion<'_>, row: &MovementRow, answer: &RowAnswer) -> ResultRow {
+fn result_row(
+    table_question: TableQuestion<'_>,
+    row: &MovementRow,
+    answer: &RowAnswer,
+) -> ResultRow {
     let TableQuestion {
         bodies,
         question,
         settings,
         has_micros,
         ..
-    } = asked;
+    } = table_question;
     let row = match row {
-        Ok((_, course)) => bodies.result_row(question, settings, course, answer),
+        Ok((_, movements)) => bodies.result_row(question, settings, movements, answer),
         Err(error) => ResultRow::error(&error.id, &error.problem),
     };
     ResultRow {

@@ -63,17 +63,19 @@ pub(crate) fn header(schema: &Schema) -> Vec<String> {
 pub(crate) fn check_column_types(schema: &Schema) -> Result<(), String> {
     let has_paths = schema.field_with_name(TIME_COLUMN).is_ok();
     for field in schema.fields() {
-        let kind = decoded_type(field.data_type());
+        let data_type = decoded_type(field.data_type());
         let (fits, needed) = if field.name() != ID_COLUMN {
-            (is_numeric(kind), "numbers")
+            (is_numeric(data_type), "numbers")
         } else if has_paths {
-            (is_id_type(kind), "text, numbers or times")
+            (is_id_type(data_type), "text, numbers or times")
         } else {
             (true, "")
         };
         if !fits {
-            let (name, kind) = (field.name(), field.data_type());
-            return Err(format!("column {name}: {needed} are needed, not {kind}"));
+            let (name, data_type) = (field.name(), field.data_type());
+            return Err(format!(
+                "column {name}: {needed} are needed, not {data_type}"
+            ));
         }
     }
     Ok(())
@@ -92,18 +94,18 @@ pub(crate) fn id_field(schema: &Schema) -> Field {
 
 /// Returns the type of a column's values without dictionary or run encoding. NumPy cannot read encoded columns, and the
 /// dictionaries of several batches may not fit into one.
-fn decoded_type(kind: &DataType) -> &DataType {
-    match kind {
+fn decoded_type(data_type: &DataType) -> &DataType {
+    match data_type {
         DataType::Dictionary(_, values) => decoded_type(values),
         DataType::RunEndEncoded(_, values) => decoded_type(values.data_type()),
         other => other,
     }
 }
 
-/// Converts a column to the type `kind`, without dictionary or run encoding. The result may be much larger than the
+/// Converts a column to the type `data_type`, without dictionary or run encoding. The result may be much larger than the
 /// column, because a column of nulls or runs takes a few bytes whatever its length.
-fn decoded_column(column: &ArrayRef, kind: &DataType) -> Result<ArrayRef, ArrowError> {
-    if column.data_type() == kind {
+fn decoded_column(column: &ArrayRef, data_type: &DataType) -> Result<ArrayRef, ArrowError> {
+    if column.data_type() == data_type {
         return Ok(Arc::clone(column));
     }
     let is_short = matches!(
@@ -117,18 +119,19 @@ fn decoded_column(column: &ArrayRef, kind: &DataType) -> Result<ArrayRef, ArrowE
             "{rows} rows do not fit into memory"
         )));
     }
-    cast(column, kind)
+    cast(column, data_type)
 }
 
-fn is_numeric(kind: &DataType) -> bool {
-    kind.is_null() || kind.is_numeric()
+fn is_numeric(data_type: &DataType) -> bool {
+    data_type.is_null() || data_type.is_numeric()
 }
 
-fn is_id_type(kind: &DataType) -> bool {
-    let is_bytes = kind.is_binary() || matches!(kind, DataType::FixedSizeBinary(_));
-    let is_time = kind.is_temporal() && !matches!(kind, DataType::Interval(_));
-    let is_simple = kind.is_null() || kind.is_numeric() || *kind == DataType::Boolean;
-    is_simple || kind.is_string() || is_bytes || is_time
+fn is_id_type(data_type: &DataType) -> bool {
+    let is_bytes = data_type.is_binary() || matches!(data_type, DataType::FixedSizeBinary(_));
+    let is_time = data_type.is_temporal() && !matches!(data_type, DataType::Interval(_));
+    let is_simple =
+        data_type.is_null() || data_type.is_numeric() || *data_type == DataType::Boolean;
+    is_simple || data_type.is_string() || is_bytes || is_time
 }
 
 pub(crate) fn unreadable_error(error: ArrowError) -> TableError {
@@ -163,13 +166,13 @@ impl Batch {
         })
     }
 
-    /// Returns the ids of `rows` rows from index `at` on. In a table without ids, they are the row indices.
-    pub(crate) fn ids(&self, at: usize, rows: usize) -> ArrayRef {
+    /// Returns the ids of `count` rows from index `start` on. In a table without ids, they are the row indices.
+    pub(crate) fn ids(&self, start: usize, count: usize) -> ArrayRef {
         match &self.id_column {
-            Some(id) => id.slice(at, rows),
+            Some(id) => id.slice(start, count),
             None => {
-                let first = self.first + at;
-                let numbers = (first..first + rows).map(|row| row as i64);
+                let first = self.first + start;
+                let numbers = (first..first + count).map(|row| row as i64);
                 Arc::new(Int64Array::from_iter_values(numbers))
             }
         }
@@ -204,14 +207,14 @@ fn inexact_integers<T: ArrowPrimitiveType<Native: Into<i128>>>(
     column: &ArrayRef,
 ) -> Option<HashMap<usize, String>> {
     let numbers = column.as_primitive::<T>().iter().enumerate();
-    let found: HashMap<usize, String> = numbers
+    let inexact: HashMap<usize, String> = numbers
         .filter_map(|(row, number)| {
             let number: i128 = number?.into();
             let text = || format!("{number}, which has more digits than a float64,");
             (number as f64 as i128 != number).then(|| (row, text()))
         })
         .collect();
-    (!found.is_empty()).then_some(found)
+    (!inexact.is_empty()).then_some(inexact)
 }
 
 impl Record for Row {
@@ -256,8 +259,8 @@ pub(crate) fn read_whole_table(
 ) -> Result<RecordBatch, ArrowError> {
     let fields = reader.schema().fields().clone();
     let fields = fields.iter().map(|field| {
-        let kind = decoded_type(field.data_type()).clone();
-        Arc::new(field.as_ref().clone().with_data_type(kind))
+        let data_type = decoded_type(field.data_type()).clone();
+        Arc::new(field.as_ref().clone().with_data_type(data_type))
     });
     let schema = Arc::new(Schema::new(fields.collect::<Fields>()));
     let mut batches = Vec::new();

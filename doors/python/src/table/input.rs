@@ -105,9 +105,9 @@ fn frame_without_null_types<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'p
 fn frame_with_index_reset<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let names = frame.getattr("index")?.getattr("names")?;
     let names: Vec<_> = names.try_iter()?.collect::<PyResult<_>>()?;
-    let how = PyDict::new(frame.py());
-    how.set_item("drop", names.iter().all(|name| name.is_none()))?;
-    frame.call_method("reset_index", (), Some(&how))
+    let options = PyDict::new(frame.py());
+    options.set_item("drop", names.iter().all(|name| name.is_none()))?;
+    frame.call_method("reset_index", (), Some(&options))
 }
 
 /// Returns the expected number of answers, or `None` if the table does not know its number of rows, or has paths.
@@ -154,16 +154,16 @@ fn batch_of_arrays(columns: &Bound<'_, PyMapping>) -> PyResult<RecordBatch> {
 }
 
 fn read_column(name: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
-    let what = format!("column {name}");
+    let argument_name = format!("column {name}");
     let numpy = values.py().import("numpy")?;
     if name == ID_COLUMN && !values.is_instance(&numpy.getattr("ndarray")?)? {
         return ids(values);
     }
-    let array = numpy_array(values, &what)?;
+    let array = numpy_array(values, &argument_name)?;
     let dimensions: usize = array.getattr("ndim")?.extract()?;
     if dimensions != 1 {
         return Err(input_error(format!(
-            "{what}: an array of one dimension is needed, not of {dimensions}"
+            "{argument_name}: an array of one dimension is needed, not of {dimensions}"
         )));
     }
     let dtype = array.getattr("dtype")?;
@@ -172,7 +172,7 @@ fn read_column(name: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
         (ID_COLUMN, _) => ids(&array.call_method0("tolist")?),
         (_, 'f') => contiguous_array(&array, PyString::new(values.py(), "float64").as_any()),
         _ => Err(input_error(format!(
-            "{what}: numbers are needed, not {dtype}"
+            "{argument_name}: numbers are needed, not {dtype}"
         ))),
     }
 }
@@ -199,15 +199,14 @@ fn ids(values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
         texts.push(text);
         numbers.push(number);
     }
-    let given = |some: usize| some > 0;
     match (
         texts.iter().flatten().count(),
         numbers.iter().flatten().count(),
     ) {
-        (texts, numbers) if given(texts) && given(numbers) => Err(input_error(
-            "column id: some are text, and some are numbers; make them all text",
+        (texts, numbers) if texts > 0 && numbers > 0 => Err(input_error(
+            "column id: some ids are text, and some are numbers; convert all to text",
         )),
-        (0, some) if given(some) => Ok(Arc::new(Int64Array::from(numbers))),
+        (0, 1..) => Ok(Arc::new(Int64Array::from(numbers))),
         _ => Ok(Arc::new(StringArray::from(texts))),
     }
 }

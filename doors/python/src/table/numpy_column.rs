@@ -19,7 +19,7 @@ pub(crate) fn to_numpy<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Boun
         DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View => text_array(py, column),
         _ if column.null_count() > 0 => array_with_empty_cells(py, column),
         DataType::Float32 => number_view(py, column),
-        kind if kind.is_integer() => number_view(py, column),
+        data_type if data_type.is_integer() => number_view(py, column),
         _ => object_array(py, column),
     }
 }
@@ -73,14 +73,14 @@ fn text_array<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, Py
 }
 
 fn object_array<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
-    if let Some(kind) = unconvertible_type(column.data_type()) {
+    if let Some(data_type) = unconvertible_type(column.data_type()) {
         return Err(refuse(format!(
-            "there are no objects of Python for values of type {kind}; take the table through Arrow, as pyarrow.table(t)"
+            "values of type {data_type} have no Python objects; convert the table through Arrow, as in pyarrow.table(t)"
         )));
     }
     // Reserves all memory first: an array of nulls may claim a length that exceeds memory.
-    let mut room = Vec::<usize>::new();
-    if room.try_reserve_exact(column.len()).is_err() {
+    let mut memory = Vec::<usize>::new();
+    if memory.try_reserve_exact(column.len()).is_err() {
         let rows = column.len();
         return Err(PyMemoryError::new_err(format!(
             "{rows} rows do not fit into memory"
@@ -99,12 +99,12 @@ fn object_array<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, 
 }
 
 /// Returns the type, nested in a column's type, that `to_pylist` cannot convert, or `None` if it can convert all.
-fn unconvertible_type(kind: &DataType) -> Option<&DataType> {
-    match kind {
+fn unconvertible_type(data_type: &DataType) -> Option<&DataType> {
+    match data_type {
         DataType::ListView(_)
         | DataType::LargeListView(_)
         | DataType::Interval(_)
-        | DataType::RunEndEncoded(..) => Some(kind),
+        | DataType::RunEndEncoded(..) => Some(data_type),
         DataType::Map(entries, _) => match entries.data_type() {
             DataType::Struct(fields)
                 if ["key", "value"]
@@ -113,7 +113,7 @@ fn unconvertible_type(kind: &DataType) -> Option<&DataType> {
             {
                 unconvertible_type(entries.data_type())
             }
-            _ => Some(kind),
+            _ => Some(data_type),
         },
         DataType::List(values)
         | DataType::LargeList(values)

@@ -7,8 +7,8 @@ use super::batch::{
 use super::input::Reader;
 use arrow_array::ArrayRef;
 use ccd_tables::columns::Columns;
-use ccd_tables::movements::{MovementRow, MovementRows, Movements};
 use ccd_tables::motions::{self, RowError, TableError};
+use ccd_tables::movements::{MovementRow, MovementRows, Movements};
 use ccd_tables::paths::Grouping;
 use rigid_ccd::Question;
 use rigid_ccd::Remark;
@@ -31,13 +31,12 @@ pub(crate) struct RowChunks<'p> {
     chunk_size: &'p ChunkSize,
     stop: &'p AtomicBool,
     /// The error of the table that ended the iteration, if any.
-    pub(crate) fault: Option<TableError>,
+    pub(crate) error: Option<TableError>,
 }
 
 enum RowSource {
     Motions {
         reader: Reader,
-        id_reading: IdReading,
         /// The number of rows read so far.
         read_row_count: usize,
         /// The remaining rows of the last batch.
@@ -71,19 +70,19 @@ impl ChunkSize {
         }
     }
 
-    /// Returns the number of rows of the next chunk, if `left` rows remain.
-    fn next_row_count(&self, left: usize) -> usize {
-        let fraction = left.div_ceil(2 * self.thread_count);
+    /// Returns the number of rows of the next chunk, if `remaining` rows remain.
+    fn next_row_count(&self, remaining: usize) -> usize {
+        let fraction = remaining.div_ceil(2 * self.thread_count);
         self.row_count.load(Ordering::Relaxed).min(fraction)
     }
 
-    /// Adapts the size of later chunks to the time `taken` by a chunk of `rows` rows.
-    pub(crate) fn adapt_chunk_size(&self, rows: usize, taken: Duration) {
+    /// Adapts the size of later chunks to the time that a chunk of `rows` rows took.
+    pub(crate) fn adapt_chunk_size(&self, rows: usize, duration: Duration) {
         // A small chunk at the end of a batch must not reduce the size of later chunks.
-        if taken < TARGET_CHUNK_DURATION / 2 {
+        if duration < TARGET_CHUNK_DURATION / 2 {
             self.row_count
                 .fetch_max(MAX_CHUNK_ROWS.min(2 * rows), Ordering::Relaxed);
-        } else if taken > 2 * TARGET_CHUNK_DURATION {
+        } else if duration > 2 * TARGET_CHUNK_DURATION {
             self.row_count.store((rows / 2).max(1), Ordering::Relaxed);
         }
     }
@@ -103,7 +102,6 @@ impl<'p> RowChunks<'p> {
     pub(crate) fn new(
         (reader, columns): (Reader, &Columns),
         question: Question,
-        names: IdReading,
         size: &'p ChunkSize,
         stop: &'p AtomicBool,
     ) -> Result<Self, TableError> {
@@ -118,7 +116,6 @@ impl<'p> RowChunks<'p> {
         } else {
             RowSource::Motions {
                 reader,
-                id_reading: names,
                 read_row_count: 0,
                 rest: None,
             }
@@ -127,7 +124,7 @@ impl<'p> RowChunks<'p> {
             source,
             chunk_size: size,
             stop,
-            fault: None,
+            error: None,
         })
     }
 }
@@ -137,7 +134,7 @@ impl RowChunks<'_> {
     pub(crate) fn remarks(&self, columns: &Columns) -> Vec<Remark> {
         match &self.source {
             RowSource::Motions { .. } => columns.remarks(),
-            RowSource::Paths(courses, _) => courses.remarks(),
+            RowSource::Paths(movement_rows, _) => movement_rows.remarks(),
         }
     }
 }
@@ -146,12 +143,12 @@ impl Iterator for RowChunks<'_> {
     type Item = RowChunk;
 
     fn next(&mut self) -> Option<RowChunk> {
-        if self.stop.load(Ordering::Relaxed) || self.fault.is_some() {
+        if self.stop.load(Ordering::Relaxed) || self.error.is_some() {
             return None;
         }
-        let piece = self.source.next(self.chunk_size);
-        piece.unwrap_or_else(|fault| {
-            self.fault = Some(fault);
+        let chunk = self.source.next(self.chunk_size);
+        chunk.unwrap_or_else(|error| {
+            self.error = Some(error);
             None
         })
     }
@@ -163,7 +160,6 @@ impl RowSource {
         match self {
             RowSource::Motions {
                 reader,
-                id_reading: names,
                 read_row_count: read,
                 rest,
             } => {
@@ -174,7 +170,7 @@ impl RowSource {
                         else {
                             return Ok(None);
                         };
-                        let batch = Batch::new(&batch, *read, *names)?;
+                        let batch = Batch::new(&batch, *read, IdReading::WithoutIds)?;
                         *read += batch.row_count;
                         let rows = 0..batch.row_count;
                         (Arc::new(batch), rows)
@@ -184,8 +180,8 @@ impl RowSource {
                 *rest = Some((Arc::clone(&batch), end..rows.end));
                 Ok(Some(RowChunk::Motions(batch, rows.start..end)))
             }
-            RowSource::Paths(courses, batch) => {
-                let Some(row) = courses.next().transpose()? else {
+            RowSource::Paths(movement_rows, batch) => {
+                let Some(row) = movement_rows.next().transpose()? else {
                     return Ok(None);
                 };
                 let position = match &row {

@@ -56,7 +56,7 @@ pub(crate) fn batch(
 }
 
 /// Converts answers about paths to a batch of columns, without ids and times of queries.
-pub(crate) fn path_batch(
+pub(crate) fn path_result_batch(
     question: Question,
     rows: &[ResultRow],
 ) -> Result<RecordBatch, ArrowError> {
@@ -83,17 +83,17 @@ fn record_batch(
 /// Returns the cells of all rows in one column as an array.
 fn column_array(cells: CellGetter, rows: &[ResultRow]) -> ArrayRef {
     match cells {
-        CellGetter::Text(of) => Arc::new(StringArray::from_iter(rows.iter().map(of))),
-        CellGetter::Number(of) => {
-            let nulls: NullBuffer = rows.iter().map(|row| of(row).is_some()).collect();
+        CellGetter::Text(cell) => Arc::new(StringArray::from_iter(rows.iter().map(cell))),
+        CellGetter::Number(cell) => {
+            let nulls: NullBuffer = rows.iter().map(|row| cell(row).is_some()).collect();
             // Writes NaN to empty cells, so that values can be read without their validity mask.
-            let values = rows.iter().map(|row| of(row).unwrap_or(f64::NAN));
+            let values = rows.iter().map(|row| cell(row).unwrap_or(f64::NAN));
             let values = values.collect::<Vec<f64>>();
             Arc::new(Float64Array::new(values.into(), Some(nulls)))
         }
-        CellGetter::Count(of) => {
+        CellGetter::Count(cell) => {
             // Counts stay below the budget of 2^63.
-            let counts = rows.iter().map(|row| of(row).map(|count| count as i64));
+            let counts = rows.iter().map(|row| cell(row).map(|count| count as i64));
             Arc::new(Int64Array::from_iter(counts))
         }
     }

@@ -54,7 +54,7 @@ fn null_and_wrong_sizes_are_refused_with_their_names() {
             rccd_first_contact(s, &body, &body, 1.0, &mut of_no_size),
             "size of the answer is 0, and at least ",
         );
-        refused(rccd_body_sphere(1.0, null_mut()), "result is null");
+        refused(rccd_body_sphere(1.0, null_mut()), "out is null");
         refused(rccd_body_load(null(), null_mut()), "path is null");
         let mut out = null_mut();
         refused(
