@@ -49,7 +49,7 @@ impl Bounds {
     }
 
     /// Returns the least dot product of `direction` with a point of the box.
-    pub(crate) fn least_height(&self, direction: DVec4) -> f64 {
+    pub(crate) fn min_projection(&self, direction: DVec4) -> f64 {
         by_coordinate(direction * self.least, direction * self.greatest, lesser).element_sum()
     }
 }

@@ -8,7 +8,7 @@ use crate::rigid_groups::{RigidGroup, rigid_groups};
 use crate::scene::{AxisKind, Joint, Link, Pair, Scene, SceneBody, Witness};
 use crate::statement::Statement;
 use crate::stop::{Never, Stop};
-use crate::write::{Proof, mesh_points, prove_unless_stopped, statement_of};
+use crate::write::{Proof, nearest_mesh_points, prove_unless_stopped, statement_of};
 use ccd_core::{Motion, Pose};
 use rigid_ccd::Settings;
 use rigid_ccd::trajectory::JointKind;
@@ -276,7 +276,7 @@ impl<'c> ProvenCell<'c> {
                 tolerance,
                 points,
             };
-            let [on_a, on_b] = mesh_points(scene, &links, witness);
+            let [on_a, on_b] = nearest_mesh_points(scene, &links, witness);
             Some((on_a.distance + on_b.distance, witness))
         });
         let nearest = candidates.min_by(|a, b| a.0.total_cmp(&b.0));

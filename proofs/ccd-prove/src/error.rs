@@ -73,7 +73,7 @@ pub enum NotProven {
     #[error(
         "link {link} turns too far for the checker: its limit is 256 radians at the start, and at least 128 radians from there"
     )]
-    TurnsTooFar {
+    RotationTooLarge {
         /// The link, where 1 is the first one.
         link: usize,
     },

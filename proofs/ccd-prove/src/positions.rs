@@ -133,7 +133,7 @@ fn check_limits(
 ) -> Result<(), ImpossiblePosition> {
     let limits = joint.geometry.limits();
     let (low, high) = (*limits.start(), *limits.end());
-    // Written so that NaN is refused.
+    // WrittenStatement so that NaN is refused.
     if position >= low - error && position <= high + error {
         return Ok(());
     }

@@ -2,7 +2,7 @@
 
 use crate::interval::{PairInterval, PlaneDirection};
 use crate::step::Step;
-use crate::tree::Part;
+use crate::tree::NodeIndex;
 use ccd_core::glam::DVec3;
 
 /// The coordinates of a normal are multiples of 2⁻⁵⁰.
@@ -16,7 +16,7 @@ const POSITIONS: [f64; 5] = [0.5, 0.65, 0.35, 0.8, 0.2];
 
 /// The parts to separate, and the required gap on either side of the plane.
 pub(crate) struct PlaneSearch<'a> {
-    pub(crate) parts: [Part; 2],
+    pub(crate) nodes: [NodeIndex; 2],
     pub(crate) interval: &'a PairInterval<'a>,
     pub(crate) required_gap: f64,
     /// The unit of length of the certificate.
@@ -48,7 +48,7 @@ impl PlaneSearch<'_> {
             };
             let range =
                 self.interval
-                    .offset_range(self.parts, plane.direction(), self.required_gap);
+                    .offset_range(self.nodes, plane.direction(), self.required_gap);
             plane.offset_range = range.map(|x| x / self.length_unit);
             plane.at(POSITIONS[0])
         });
@@ -71,7 +71,7 @@ impl PlaneSearch<'_> {
     fn visits(&self, plane: &SeparatingPlane) -> usize {
         let offset = plane.offset * self.length_unit;
         self.interval
-            .plane_visits(self.parts, plane.direction(), self.required_gap, offset)
+            .plane_visits(self.nodes, plane.direction(), self.required_gap, offset)
     }
 }
 

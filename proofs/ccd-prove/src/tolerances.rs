@@ -13,7 +13,7 @@ pub(crate) const ROUNDING: f64 = 2e-14;
 pub(crate) const SECOND_DERIVATIVE_FACTOR: f64 = 1.0 + 1e-12;
 
 /// The largest sum of joint angles over half of an interval, in radians. The checker's limit is 2, after rounding up.
-pub(crate) const MAX_TURN: f64 = 1.999;
+pub(crate) const MAX_ANGLE: f64 = 1.999;
 
 /// Error bound of a point transformed by a pose, as a fraction of the lengths of the point and of the translation.
 ///

@@ -1,6 +1,6 @@
 //! Proofs of the paths of a small robot, including paths at the checker's limits.
 
-use ccd_prove::{NotProven, PathNotProven, Proof, ProvenCell, StatedLink, Statement};
+use ccd_prove::{NotProven, PathNotProven, Proof, ProvenCell, Statement, StatementLink};
 use rigid_ccd::{Body, Pose, Settings, StartPolicy, trajectory};
 use rigid_ccd_robot::{Cell, Joint, Link, LinkPairs, PositionRule, Robot};
 use std::sync::Arc;
@@ -146,7 +146,7 @@ fn turns_beyond_the_range_of_the_checker_are_refused() {
         assert_eq!(prove_and_check(&unused, &path).unwrap().len(), 1);
         let used = cell(block(1.0), (block(1.0), 9.0), Some(block(0.5)));
         let refused = prove_and_check(&used, &path).map(|proofs| proofs.len());
-        let reason = NotProven::TurnsTooFar { link: 2 };
+        let reason = NotProven::RotationTooLarge { link: 2 };
         assert_eq!(refused, Err(PathNotProven::Segment { segment: 0, reason }));
     }
     let used = cell(block(1.0), (block(1.0), 9.0), Some(block(0.5)));
@@ -193,7 +193,7 @@ fn statements_about_other_joints_are_rejected() {
     let proof = &prove_and_check(&cell, &[[0.1, 0.2], [0.3, -0.4]]).unwrap()[0];
     let statement = Statement::read(&proof.bytes).unwrap();
     assert!(proven.joints_of(&statement, 0.0).is_some());
-    let changes: [fn(&mut StatedLink); 8] = [
+    let changes: [fn(&mut StatementLink); 8] = [
         |link| link.velocity[0] *= 3.0,
         |link| link.velocity[0] *= -1.0,
         |link| link.velocity[1] = 1.0,

@@ -3,7 +3,7 @@
 use super::{Meshes, Random, WITNESSES_AT, proofs};
 use ccd_check::Stop;
 use ccd_core::{Motion, Pose};
-use ccd_prove::{Proof, StatedLink, Statement, steps_text};
+use ccd_prove::{Proof, Statement, StatementLink, steps_text};
 use rigid_ccd::Solver;
 
 /// The number of bytes of a witness.
@@ -189,7 +189,7 @@ fn no_false_random_forgery_is_accepted() {
 /// Returns whether the engine finds no contact at sampled times until the stated time.
 fn is_true(meshes: &Meshes, bytes: &[u8]) -> bool {
     let statement = Statement::read(bytes).unwrap();
-    let motion = |link: &StatedLink| {
+    let motion = |link: &StatementLink| {
         let [velocity, spin] = [link.velocity, link.axis].map(|v| v.map(|x| x * link.rate));
         let start = Pose::new(link.position, link.quaternion).unwrap();
         // With other axes or another start the link is not a freely moving body.

@@ -9,7 +9,7 @@ use ccd_core::order::greater;
 /// At time t a point y of the link is at `p + R c + s v + exp(s [a]×) R (y − c)` with s = start + t rate. Here p is the position, R the
 /// rotation of the quaternion, c the center, v the velocity and a the axis.
 #[derive(Clone, Debug, PartialEq)]
-pub struct StatedLink {
+pub struct StatementLink {
     /// The parent: 0 is the world, 1 the first link.
     pub parent: u32,
     /// The position of the link's frame on the parent.
@@ -30,9 +30,9 @@ pub struct StatedLink {
     pub rate: f64,
 }
 
-impl StatedLink {
+impl StatementLink {
     pub(crate) fn read(cursor: &mut Cursor<'_>) -> Option<Self> {
-        Some(StatedLink {
+        Some(StatementLink {
             parent: cursor.u32()?,
             position: cursor.numbers()?,
             quaternion: cursor.numbers()?,
@@ -50,7 +50,7 @@ impl StatedLink {
     /// A free motion then has its velocity and angular velocity per time, with rate 1. A joint has an axis whose largest coordinate is
     /// above 1/2, and at most 1. A link that was not scaled is returned as it is.
     #[must_use]
-    pub fn as_given(&self) -> Self {
+    pub fn without_scaling(&self) -> Self {
         let [velocity, axis] = [self.velocity, self.axis].map(DVec3::from_array);
         let factor = if self.axes == 0 {
             if self.start == 0.0 { self.rate } else { 1.0 }
@@ -62,7 +62,7 @@ impl StatedLink {
                 1.0
             }
         };
-        let as_given = StatedLink {
+        let without_scaling = StatementLink {
             velocity: (velocity * factor).to_array(),
             axis: (axis * factor).to_array(),
             start: self.start / factor,
@@ -71,10 +71,16 @@ impl StatedLink {
         };
         let unscaled = |v: [f64; 3]| (DVec3::from_array(v) / factor).to_array();
         let is_same_motion = is_power_of_two(factor)
-            && (unscaled(as_given.velocity), unscaled(as_given.axis)) == (self.velocity, self.axis)
-            && (as_given.start * factor, as_given.rate * factor) == (self.start, self.rate);
+            && (
+                unscaled(without_scaling.velocity),
+                unscaled(without_scaling.axis),
+            ) == (self.velocity, self.axis)
+            && (
+                without_scaling.start * factor,
+                without_scaling.rate * factor,
+            ) == (self.start, self.rate);
         if is_same_motion {
-            as_given
+            without_scaling
         } else {
             self.clone()
         }
@@ -82,7 +88,7 @@ impl StatedLink {
 
     /// Returns the bits of all numbers of the link without the prover's scaling, for comparison.
     pub(crate) fn numbers(&self) -> Vec<u64> {
-        let given = self.as_given();
+        let given = self.without_scaling();
         let numbers = [
             &given.position[..],
             &given.quaternion,
@@ -99,7 +105,7 @@ impl StatedLink {
 
     /// Compares with the same joint at other positions, whose numbers may be scaled by a power of two. Returns the factor for the start
     /// and the rate of `other`. Returns `None` if `other` is a different joint.
-    pub(crate) fn scale(&self, other: &StatedLink) -> Option<f64> {
+    pub(crate) fn scale(&self, other: &StatementLink) -> Option<f64> {
         let is_fixed = self.axes == 0;
         let [own, theirs] = [self.velocity, other.velocity].map(DVec3::from_array);
         let largest = own.abs().max_position();
@@ -108,7 +114,7 @@ impl StatedLink {
         } else {
             own[largest] / theirs[largest]
         };
-        let as_theirs = StatedLink {
+        let as_theirs = StatementLink {
             velocity: (own / scale).to_array(),
             start: if is_fixed { self.start } else { other.start },
             rate: if is_fixed { self.rate } else { other.rate },
