@@ -10,25 +10,25 @@ use rigid_ccd::trajectory::JointKind;
 use rigid_ccd_robot::{AttachedBody, Cell, Robot};
 use std::collections::BTreeMap;
 
-/// One body of a cell, or several bodies that are static relative to each other and have the same pairs.
+/// One body of a cell, or several bodies that are static relative to each other and are compared with the same other bodies.
 #[derive(Debug)]
 pub(crate) struct RigidGroup {
     /// The indices of the cell's bodies.
     pub(crate) members: Vec<usize>,
-    /// The index of the robot's link that carries the group.
+    /// The index of the robot's link to which the group is attached.
     pub(crate) link: usize,
-    /// The pose on the link. It is the identity for several bodies, whose vertices are in the frame of the link.
+    /// The pose on the link. It is the identity for several bodies, because their merged vertices are in the frame of the link.
     pub(crate) pose: Pose,
     /// The merged mesh.
     pub(crate) body: Body,
 }
 
-/// The key of a group: the link that its bodies are static on, and the pairs of each body. A pair has the other body, and the bits of
-/// the required distance at margins 0 and 1.
+/// The key of a group: the static root of its bodies, and the pairs of each body. A pair is given by the index of the other body, and by
+/// the bits of the required distances for the margins 0 and 1.
 type GroupKey = (usize, Vec<[u64; 3]>);
 
-/// Groups the bodies of a cell that are in at least one pair. Two bodies of one group are never compared with each other. Their
-/// keys would differ, as no body is compared with itself.
+/// Returns the groups of all bodies of a cell that are in a pair. Two bodies of one group are never compared with each other: as no
+/// body is compared with itself, their keys would differ.
 ///
 /// # Errors
 /// [`NoMesh`].
@@ -38,7 +38,7 @@ pub(crate) fn rigid_groups<S: Stop>(
 ) -> Result<Result<Vec<RigidGroup>, NoMesh>, S::Stopped> {
     let roots = static_roots(cell.robot());
     let mut partners = vec![Vec::new(); cell.carried_bodies().len()];
-    // The distances at two margins distinguish a padding, which is added to the margin, from a clearance, which replaces it.
+    // A padding is added to the margin, and a clearance replaces it. The distances for two margins distinguish both.
     for (([a, b], distance_at_0), (_, distance_at_1)) in
         cell.compared_pairs(0.0).zip(cell.compared_pairs(1.0))
     {
@@ -83,7 +83,7 @@ struct Member<'c> {
     triangles: Vec<[DVec4; 3]>,
 }
 
-/// The static root of a link: its nearest ancestor, or the link itself, that is not on a fixed joint.
+/// The static root of a link: the link itself, or its nearest ancestor, whose joint is not fixed.
 #[derive(Clone)]
 struct StaticRoot {
     link: usize,
@@ -129,7 +129,7 @@ fn merge<S: Stop>(
             body: Body::of_triangles(&triangles, stop)?,
         });
     }
-    let mut all = Vec::new();
+    let mut merged = Vec::new();
     for Member {
         carried, triangles, ..
     } in members
@@ -140,17 +140,17 @@ fn merge<S: Stop>(
                 .chain(&roots[carried.link].poses)
         };
         let to_root = |corner| poses().fold(corner, transform_ball);
-        all.extend(triangles.into_iter().map(|corners| corners.map(to_root)));
+        merged.extend(triangles.into_iter().map(|corners| corners.map(to_root)));
     }
     Ok(RigidGroup {
         members: indices,
         link: root,
         pose: Pose::IDENTITY,
-        body: Body::of_triangles(&all, stop)?,
+        body: Body::of_triangles(&merged, stop)?,
     })
 }
 
-/// Transforms a ball by a pose, and grows its radius by the error bound of the center.
+/// Transforms a ball by a pose. Enlarges its radius by the error bound of the center.
 fn transform_ball(ball: DVec4, pose: &Pose) -> DVec4 {
     if *pose == Pose::IDENTITY {
         return ball;

@@ -1,4 +1,4 @@
-//! Reads the statement of a certificate, to compare it and to print it. The checker has its own reader.
+//! Reads the statement of a certificate, to compare it with another statement and to print it. The checker does not use this reader.
 
 use crate::cursor::{Cursor, signed, unsigned};
 use crate::statement_link::StatementLink;
@@ -24,9 +24,10 @@ pub struct Statement {
     pub bytes: usize,
 }
 
-/// The subject of a statement: the meshes, their motions, and the pairs, without margins and times. Statements can be compared by it.
+/// The meshes, motions and pairs of a statement, without margins and times. Two statements with equal subjects are about the same
+/// question.
 ///
-/// Two motions are equal if their numbers are, apart from the prover's scaling by powers of two.
+/// The comparison ignores the prover's scaling of motions by powers of two.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Subject {
     links: Vec<Vec<u64>>,
@@ -34,7 +35,7 @@ pub struct Subject {
     pairs: Vec<[u32; 2]>,
 }
 
-/// Two points of a pair that are near each other at a time.
+/// A point of each body of a pair, and a time at which the points are near each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StatementWitness {
     /// The index of the pair.
@@ -95,7 +96,7 @@ impl Statement {
         })
     }
 
-    /// Returns the subject of the statement, for comparison with that of the wanted statement.
+    /// Returns the subject of the statement, for comparison with the subject of an expected statement.
     pub fn subject(&self) -> Subject {
         Subject {
             links: self.links.iter().map(StatementLink::numbers).collect(),
@@ -104,21 +105,23 @@ impl Statement {
         }
     }
 
-    /// Returns whether each pair has at least the margin that it has in `wanted`, a statement with the same subject.
-    pub fn keeps_margins_of(&self, wanted: &Statement) -> bool {
-        let pairs = self.pairs.iter().zip(&wanted.pairs);
-        self.pairs.len() == wanted.pairs.len()
-            && pairs.into_iter().all(|(own, wanted)| own.1 >= wanted.1)
+    /// Returns whether the margin of each pair is at least its margin in `expected`, a statement with the same subject.
+    pub fn keeps_margins_of(&self, expected: &Statement) -> bool {
+        let pairs = self.pairs.iter().zip(&expected.pairs);
+        self.pairs.len() == expected.pairs.len()
+            && pairs
+                .into_iter()
+                .all(|((_, margin), (_, expected_margin))| margin >= expected_margin)
     }
 
-    /// Compares with a statement about the same bodies, links, pairs and margins, at other joint positions and times. Returns the
-    /// factor for the start and the rate of each link of `other`. Returns `None` if the statements differ in anything else.
+    /// Compares two statements that may have other joint positions, times and scalings by powers of two. Returns for each link the
+    /// factor that undoes the scaling of its start and its rate in `other`. Returns `None` if the statements differ in anything else.
     pub(crate) fn scales(&self, other: &Statement) -> Option<Vec<f64>> {
         let has_same_pairs = self.bodies == other.bodies
             && self.pairs == other.pairs
             && self.links.len() == other.links.len();
         let links = self.links.iter().zip(&other.links);
-        has_same_pairs.then(|| links.map(|(own, theirs)| own.scale(theirs)).collect())?
+        has_same_pairs.then(|| links.map(|(link, other)| link.scale(other)).collect())?
     }
 
     /// Returns a summary of one line.
@@ -145,8 +148,8 @@ impl Statement {
     }
 }
 
-/// Writes the whole statement as text, with one line for each link, body and pair. A link has the numbers that it was [given
-/// in](StatementLink::without_scaling). A number has the fewest digits that give the same binary64.
+/// Writes the whole statement as text, with one line for each link, body and pair. The numbers of a link are [without the prover's
+/// scaling](StatementLink::without_scaling). A number has the fewest digits that identify its binary64.
 impl Display for Statement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [length, time] = self.units;
@@ -196,7 +199,7 @@ impl Display for Statement {
     }
 }
 
-/// Returns the steps of a proof as text, one on each line. The text ends with `broken` at a step that cannot be read.
+/// Returns the steps of a proof as text, with one step per line. The text ends with `broken` at a step that cannot be read.
 pub fn steps_text(certificate: &[u8], statement: &Statement) -> String {
     let mut cursor = Cursor(certificate.get(statement.bytes..).unwrap_or_default());
     let mut text = String::new();

@@ -1,19 +1,19 @@
-//! Stops long work when another thread sets a flag.
+//! The stop flag: another thread sets it to end long work early.
 
 use std::cmp::Ordering;
 use std::convert::Infallible;
 use std::sync::atomic::{self, AtomicBool};
 
-/// A condition that long work checks regularly, to see whether to stop.
+/// A stop condition, which long work checks regularly.
 pub(crate) trait Stop: Copy {
-    /// The error of stopped work. It has no value for work that is never stopped.
+    /// The error of stopped work. For work that is never stopped this type has no values.
     type Stopped;
 
     /// Returns an error if the work has to stop.
     fn check(self) -> Result<(), Self::Stopped>;
 }
 
-/// The condition of work that is never stopped.
+/// The stop condition of work that is never stopped.
 #[derive(Clone, Copy)]
 pub(crate) struct Never;
 
@@ -51,10 +51,10 @@ pub(crate) fn sort<T, S: Stop>(
 ) -> Result<(), S::Stopped> {
     let mut length = SORTED_AT_ONCE;
     loop {
-        for part in elements.chunks_mut(length) {
+        for chunk in elements.chunks_mut(length) {
             stop.check()?;
-            // Each part is two sorted runs, which the stable sort merges in a single pass.
-            part.sort_by(&compare);
+            // Each chunk consists of two sorted runs, which the stable sort merges in a single pass.
+            chunk.sort_by(&compare);
         }
         if length >= elements.len() {
             return Ok(());

@@ -22,10 +22,12 @@ fn the_nearest_points_of_triangles_segments_and_points_are_found() {
         ([-x, x, x], DVec3::new(0.0, 2.0, 0.0), [0.5, 0.5, 0.0]),
         ([x, x, -x], DVec3::new(-3.0, 2.0, 0.0), [0.0, 0.0, 1.0]),
     ] {
-        let found = nearest_weights(corners, point);
-        let error = (0..3).map(|k| (found[k] - expected[k]).abs()).sum::<f64>();
-        assert!(error < 1e-12, "{corners:?} {point}: {found:?}");
+        let weights = nearest_weights(corners, point);
+        let error = (0..3)
+            .map(|k| (weights[k] - expected[k]).abs())
+            .sum::<f64>();
+        assert!(error < 1e-12, "{corners:?} {point}: {weights:?}");
     }
-    let of_a_point = nearest_weights([x; 3], y);
-    assert!((of_a_point.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    let weights = nearest_weights([x; 3], y);
+    assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-12);
 }

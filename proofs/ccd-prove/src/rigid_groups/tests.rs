@@ -10,7 +10,7 @@ fn exact(x: f64) -> RBig {
     RBig::try_from(x).unwrap()
 }
 
-/// Transforms a point by a pose with the rotation of q / |q|, in exact fractions.
+/// Transforms a point by a pose in exact fractions. The rotation is that of the normalized quaternion.
 fn transform_exactly(point: DVec3, pose: &Pose) -> [RBig; 3] {
     let [x, y, z, w] = pose.rotation().to_array().map(exact);
     let [vx, vy, vz] = point.to_array().map(exact);
@@ -48,9 +48,9 @@ fn transformed_balls_contain_the_exact_ones() {
         let ball = DVec3::from_array(point).extend(0.25);
         let transformed = transform_ball(ball, &pose);
         let expected = transform_exactly(ball.truncate(), &pose);
-        let found = transformed.truncate().to_array().map(exact);
+        let center = transformed.truncate().to_array().map(exact);
         let [x, y, z] = [0, 1, 2].map(|k| {
-            let error = &found[k] - &expected[k];
+            let error = &center[k] - &expected[k];
             &error * &error
         });
         let growth = exact(transformed.w) - exact(ball.w);
@@ -91,26 +91,26 @@ fn cell() -> Cell {
     cell
 }
 
-/// Checks the members of the groups. Checks that exactly the pairs of the cell are stated, with their margins, and are proven.
-fn check(cell: &Cell, expected: &[&[usize]]) {
+/// Checks the members of the groups. Checks that the scene has exactly the pairs of the cell with their margins, and that the proof holds.
+fn assert_groups_and_proof(cell: &Cell, expected: &[&[usize]]) {
     let Ok(groups) = rigid_groups(cell, Never);
     let groups = groups.unwrap();
     let members: Vec<&[usize]> = groups.iter().map(|group| &group.members[..]).collect();
     assert_eq!(members, expected);
     let proven = ProvenCell::new(cell).unwrap();
     let scene = proven.edge(&[0.2], &[0.5], 0.01).unwrap();
-    let mut stated = Vec::new();
+    let mut scene_pairs = Vec::new();
     for pair in &scene.pairs {
         let [a, b] = pair.bodies.map(|body| expected[body]);
         for &a in a {
-            stated.extend(b.iter().map(|&b| ([a.min(b), a.max(b)], pair.margin)));
+            scene_pairs.extend(b.iter().map(|&b| ([a.min(b), a.max(b)], pair.margin)));
         }
     }
     let mut compared: Vec<_> = cell.compared_pairs(0.01).collect();
     let by_bodies = |a: &([usize; 2], f64), b: &([usize; 2], f64)| a.0.cmp(&b.0);
-    stated.sort_by(by_bodies);
+    scene_pairs.sort_by(by_bodies);
     compared.sort_by(by_bodies);
-    assert_eq!(stated, compared);
+    assert_eq!(scene_pairs, compared);
     let proof = prove(&scene, 1.0, None).unwrap();
     let meshes = proven
         .meshes()
@@ -122,20 +122,20 @@ fn check(cell: &Cell, expected: &[&[usize]]) {
 #[test]
 fn static_bodies_are_merged_if_they_have_the_same_pairs() {
     let mut cell = cell();
-    check(&cell, &[&[0, 1], &[2, 3, 4, 5]]);
+    assert_groups_and_proof(&cell, &[&[0, 1], &[2, 3, 4, 5]]);
     // Only the tool has a padding, so its distances differ from those of the arm.
     cell.set_padding("tool", 0.05).unwrap();
-    check(&cell, &[&[0], &[1], &[2, 3, 4, 5]]);
+    assert_groups_and_proof(&cell, &[&[0], &[1], &[2, 3, 4, 5]]);
     cell.set_padding("arm", 0.05).unwrap();
-    check(&cell, &[&[0, 1], &[2, 3, 4, 5]]);
+    assert_groups_and_proof(&cell, &[&[0, 1], &[2, 3, 4, 5]]);
     // This clearance equals the padding, but does not grow with the margin.
     let pair = [Item::Link("arm"), Item::Obstacle("obstacle 3")];
     cell.set_clearance(pair, 0.05).unwrap();
-    check(&cell, &[&[0], &[1], &[2, 3, 4], &[5]]);
+    assert_groups_and_proof(&cell, &[&[0], &[1], &[2, 3, 4], &[5]]);
     // A pair with an allowed contact is in no proof.
     cell.allow_contact([Item::Link("tool"), Item::Obstacle("obstacle 2")])
         .unwrap();
-    check(&cell, &[&[0], &[1], &[2, 3], &[4], &[5]]);
+    assert_groups_and_proof(&cell, &[&[0], &[1], &[2, 3], &[4], &[5]]);
 }
 
 #[test]

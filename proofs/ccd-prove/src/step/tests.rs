@@ -1,7 +1,7 @@
 use super::*;
 
 #[test]
-fn each_opcode_is_that_of_its_step() {
+fn each_step_is_read_from_its_opcode() {
     for opcode in 0..=7 {
         assert_eq!(Step::from_opcode(opcode).unwrap().opcode(), opcode);
     }

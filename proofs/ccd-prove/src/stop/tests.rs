@@ -10,11 +10,11 @@ fn sorting_long_lists_is_stable() {
         5 * SORTED_AT_ONCE - 3,
     ] {
         let value = |k: usize| (k.wrapping_mul(2_654_435_761) >> 7) % 1000;
-        let mut found: Vec<(usize, usize)> = (0..count).map(|k| (value(k), k)).collect();
-        let mut expected = found.clone();
+        let mut sorted: Vec<(usize, usize)> = (0..count).map(|k| (value(k), k)).collect();
+        let mut expected = sorted.clone();
         expected.sort_unstable();
-        let Ok(()) = sort(&mut found, |a, b| a.0.cmp(&b.0), Never);
-        assert_eq!(found, expected);
+        let Ok(()) = sort(&mut sorted, |a, b| a.0.cmp(&b.0), Never);
+        assert_eq!(sorted, expected);
     }
 }
 
