@@ -50,7 +50,7 @@ fn each_kind_of_forgery_is_rejected() {
         }
         bytes
     };
-    let not_apart = "a leaf does not prove its parts apart";
+    let not_apart = "a leaf does not prove its nodes apart";
     assert_eq!(reason_of(&with_plane([0; 3], None)), not_apart);
     assert_eq!(reason_of(&with_plane([1 << 50, 1, 0], None)), not_apart);
     let normal = [1, 8, 15].map(|k| {
@@ -79,7 +79,7 @@ fn each_kind_of_forgery_is_rejected() {
     // One of the meshes is not given.
     assert_eq!(
         reason(ccd_check::check(&bodies[..1], &proof.bytes)),
-        "a mesh is not given in this unit"
+        "a mesh of the statement is missing, or was read in another unit"
     );
 }
 
