@@ -102,15 +102,15 @@ def prismatic(v=(0, 0, 1), alpha=0.0, beta=0.0, p=ZERO, q=(0, 0, 0, 1), on=0):
 
 
 def link_bytes(x): return struct.pack("<I10dI8d", x.on, *x.p, *x.q, *x.c, x.axes, *x.v, *x.a, x.alpha, x.beta)
-def seven(x): return x.to_bytes(7, "little", signed=True)
-def leaf(axis, frame=0, d=AUTO): return bytes([3 + frame]) + b"".join(map(seven, (*axis, d)))
+def int56(x): return x.to_bytes(7, "little", signed=True)
+def leaf(axis, frame=0, d=AUTO): return bytes([3 + frame]) + b"".join(map(int56, (*axis, d)))
 def along(*v): return tuple(math.trunc(c * (1 - 1e-9) * ONE) for c in v)   # slightly less than 1 long
 AROUND_A, AROUND_B = b"\6", b"\7"
 def split_time(first, second): return b"\2" + first + second
 
 
 def split_evenly(depth, make, t0=0.0, t1=1.0):
-    """Returns the steps that split the time into 2^depth equal intervals. make(middle) returns the leaf of an interval."""
+    """Returns steps that split the time into 2^depth equal intervals. make(middle) returns the leaf of an interval."""
     if depth == 0:
         return make((t0 + t1) / 2)
     m = (t0 + t1) / 2
@@ -260,30 +260,30 @@ class Case(unittest.TestCase):
 
     def fit(self, meshes, made):
         """Replaces each AUTO in a proof by the best offset. A patched checker returns the signed distances for it."""
-        if seven(AUTO) not in made:
+        if int56(AUTO) not in made:
             return made
-        real, heights, found = so.distance_bound, [], []
+        original, bounds, found = so.distance_bound, [], []
         def record_bound(*call):
             d = call[-1] >> so.F
             if abs(d) != -AUTO:
-                return real(*call)
-            heights.append(real(*call[:-1], 0))
+                return original(*call)
+            bounds.append(original(*call[:-1], 0))
             if d < 0:                   # the plane of B, as that of A comes before it
-                below, above = heights[-2:]
+                below, above = bounds[-2:]
                 found.append(round(Fraction(above - below, 2 << so.F)))
             return 1 << 4096
         so.distance_bound = record_bound
         try:
             paths = self.files(*meshes, made)
-            self.checked(paths[:-1], paths[-1:])
+            self.run_checker(paths[:-1], paths[-1:])
         finally:
-            so.distance_bound = real
+            so.distance_bound = original
         limit = (1 << 55) - 1
         for d in found:
-            made = made.replace(seven(AUTO), seven(max(-limit, min(limit, d))), 1)
+            made = made.replace(int56(AUTO), int56(max(-limit, min(limit, d))), 1)
         return made
 
-    def checked(self, meshes, proofs):
+    def run_checker(self, meshes, proofs):
         out, options = io.StringIO(), []
         for i in range(0, len(meshes), 2):
             options += ["--mesh", *meshes[i:i + 2]]
@@ -294,7 +294,7 @@ class Case(unittest.TestCase):
     def run_files(self, meshes, *proofs):
         """Returns the verdicts and reasons that the command prints. `meshes` lists each mesh before its certificate."""
         paths = self.files(*meshes, *(self.fit(meshes, made) for made in proofs))
-        status, lines = self.checked(paths[:len(meshes)], paths[len(meshes):])
+        status, lines = self.run_checker(paths[:len(meshes)], paths[len(meshes):])
         self.assertEqual(len(lines), len(proofs))
         self.assertEqual(status, 0 if all(v == "holds" for v, _ in lines) else 1)
         return lines
@@ -332,12 +332,12 @@ class Free(Case):
 
     def test_radii_count(self):
         for radii in ((0.25, 0.25), (0.5, 0.0), (0.0, 0.5), (0.5, 0.5)):
-            files, make = self.thick_pair(radii)
+            files, make = self.rounded_pair(radii)
             if sum(radii) < 1:
                 self.holds(files, make(leaf(Z), margin=0.4999))
             self.fails("does not prove", files, make(leaf(Z), margin=0.5 if sum(radii) < 1 else 0.0))
 
-    def thick_pair(self, radii, la=free(), lb=free(p=(0, 0, 1))):
+    def rounded_pair(self, radii, la=free(), lb=free(p=(0, 0, 1))):
         """Returns the files of two triangles with these radii, and a function that makes proofs of them."""
         a, b = (with_radii(FLAT, r) for r in radii)
         return (a, certificate(a), b, certificate(b)), lambda steps, **more: two(a, b, la, lb, steps, **more)
@@ -355,7 +355,7 @@ class Free(Case):
         # A motion lowers the gap as for flat triangles: by rate / 2, and by half of the square of half of the angle.
         for rate in (0.0, 0.5):
             lb = free(p=(0, 0, 1), w=(0, 0, rate), v=(0, 0, -rate / 2))
-            files, make = self.thick_pair((0.125, 0.25), lb=lb)
+            files, make = self.rounded_pair((0.125, 0.25), lb=lb)
             self.holds(files, make(leaf(Z), margin=0.6249 - rate / 2 - rate ** 2 / 8))
             self.fails("does not prove", files, make(leaf(Z), margin=0.6251 - rate / 2 - rate ** 2 / 8))
 
@@ -374,13 +374,13 @@ class Free(Case):
         half = 1 << 39                              # 1/2, in units of 2^-40
         for frame in (0, 1, 2):
             below = half - (frame == 2) * 2 * half   # relative to A or the world, or to B
-            for d, most in ((0, 1.0), (half // 2, 0.5), (-half // 2, 0.5), (half - 1, 2.0 ** -39), (half, 0.0),
+            for d, max_margin in ((0, 1.0), (half // 2, 0.5), (-half // 2, 0.5), (half - 1, 2.0 ** -39), (half, 0.0),
                             (1 - half, 2.0 ** -39), (-half, 0.0), (2 * half, 0.0), (-8 * half, 0.0),
                             (2 ** 55 - 1 - half, 0.0), (half - 2 ** 55, 0.0)):
                 step = leaf(Z, frame, below + d)
-                if most > 0:
-                    self.holds(self.M, self.flat(step, margin=math.nextafter(most, 0)))
-                self.fails("does not prove", self.M, self.flat(step, margin=most))
+                if max_margin > 0:
+                    self.holds(self.M, self.flat(step, margin=math.nextafter(max_margin, 0)))
+                self.fails("does not prove", self.M, self.flat(step, margin=max_margin))
 
     def test_offset_is_from_the_center(self):
         # A and B are 10 and 11 above the origin, with centers elsewhere.
@@ -434,9 +434,9 @@ class Free(Case):
         # An interval can be split if it has at least two ticks.
         once = split_time(leaf(Z), leaf(Z))
         left, right = split_time(once, leaf(Z)), split_time(leaf(Z), once)
-        all_made = [self.flat(steps, units=TICKS, duration=duration)
+        proofs = [self.flat(steps, units=TICKS, duration=duration)
                     for duration in (0.0, 1.5, 2.0, 3.5) for steps in (leaf(Z), once, left, right)]
-        for made, can in zip(all_made, (1, 0, 0, 0, 1, 1, 0, 0, 1, 1, 0, 1, 1, 1, 1, 1)):
+        for made, can in zip(proofs, (1, 0, 0, 0, 1, 1, 0, 0, 1, 1, 0, 1, 1, 1, 1, 1)):
             if can:
                 self.holds(self.M, made)
             else:
@@ -446,9 +446,9 @@ class Free(Case):
         for duration, middle in ((2.0, 1), (3.0, 1), (4.0, 2), (5.0, 2), (8.0, 4)):
             for above, beside in ((middle + 0.5, middle - 1.5), (middle - 0.5, middle - 1.5),
                                   (middle + 0.5, middle + 0.5)):
-                slow = free(p=(1 - beside, 0, above / 4), v=(1, 0, -0.25))
+                link = free(p=(1 - beside, 0, above / 4), v=(1, 0, -0.25))
                 both, ticks = split_time(leaf(Z), leaf(X)), {"duration": duration - 0.5, "units": TICKS}
-                made = self.flat(both, lb=slow, margin=0.01, **ticks)
+                made = self.flat(both, lb=link, margin=0.01, **ticks)
                 if beside < middle < above:
                     self.holds(self.M, made)
                 else:
@@ -469,9 +469,9 @@ class Free(Case):
         for axis in ((0, 0, ONE + 1), (1, 0, ONE)):
             self.fails("does not prove", self.M, self.flat(leaf(axis, 0, half), lb=lb))
         # An oblique axis shows a smaller gap: 0.8 minus 0.6 of the extent along x.
-        bent = along(0.6, 0, 0.8)
-        self.holds(self.M, self.flat(leaf(bent), margin=0.19))
-        self.fails("does not prove", self.M, self.flat(leaf(bent), margin=0.21))
+        oblique = along(0.6, 0, 0.8)
+        self.holds(self.M, self.flat(leaf(oblique), margin=0.19))
+        self.fails("does not prove", self.M, self.flat(leaf(oblique), margin=0.21))
 
     def test_file(self):
         good = self.flat(leaf(Z))
@@ -488,9 +488,9 @@ class Free(Case):
         self.fails("margin is negative", self.M, self.flat(leaf(Z), margin=-0.5))
         for bad, place in itertools.product((-0.5, -5e-324, math.nan, math.inf, -math.inf), range(3)):
             a = with_radii(FLAT, *[bad if i == place else 0.5 for i in range(3)])
-            why, verdict = ("radius", "broken") if math.isfinite(bad) else ("not finite", "unverifiable")
+            reason, verdict = ("radius", "broken") if math.isfinite(bad) else ("not finite", "unverifiable")
             made = two(a, FLAT, free(), free(p=(0, 0, 1)), leaf(Z))
-            self.fails(why, (a, certificate(a), *self.M), made, verdict=verdict)
+            self.fails(reason, (a, certificate(a), *self.M), made, verdict=verdict)
         minus_0 = with_radii(FLAT, -0.0)
         self.holds((minus_0, certificate(minus_0)), two(minus_0, minus_0, free(), free(p=(0, 0, 1)), leaf(Z), 0.99))
         self.fails("time is negative", self.M, self.flat(leaf(Z), duration=-1.0))
@@ -539,9 +539,9 @@ class Free(Case):
         ball = with_radii(FLAT, 1e300)
         self.holds((*self.M, ball, certificate(ball)), two(FLAT, ball, free(), free(p=(0, 0, 2e300)), leaf(Z), 9.9e299,
                                                            units=(950, 0)))
-        tiny = mesh([(0, 0, 5e-324), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-        tree = certificate(tiny)
-        self.holds((tiny, tree, *self.M), two(tiny, FLAT, free(), free(p=(0, 0, 1)), leaf(Z), margin=0.5))
+        tiny_mesh = mesh([(0, 0, 5e-324), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+        tree = certificate(tiny_mesh)
+        self.holds((tiny_mesh, tree, *self.M), two(tiny_mesh, FLAT, free(), free(p=(0, 0, 1)), leaf(Z), margin=0.5))
 
     def test_quaternion(self):
         # A quarter rotate about x rotates y to z, so the triangle reaches up to z = 1.
@@ -674,21 +674,21 @@ class Joints(Case):
             v, a, p, c, (alpha, beta, t) = ([rng.uniform(-1, 1) for _ in range(3)] for _ in range(5))
             q = [rng.gauss(0, 1) for _ in range(4)]
             x = moving_link(v, a, 2 * alpha, 2 * beta, 1, p, fscale(1 / flength(q), q), c)
-            turned = x._replace(axes=0, v=rotate(x.q, x.v), a=rotate(x.q, x.a))
-            double = x._replace(v=fscale(8, x.v), a=fscale(8, x.a), alpha=x.alpha / 8, beta=x.beta / 8)
+            along_parent_axes = x._replace(axes=0, v=rotate(x.q, x.v), a=rotate(x.q, x.a))
+            rescaled = x._replace(v=fscale(8, x.v), a=fscale(8, x.a), alpha=x.alpha / 8, beta=x.beta / 8)
             expected = self.poses(x, t)
-            for other in (turned, double):
+            for other in (along_parent_axes, rescaled):
                 for u, v in zip(self.poses(other, t), expected):
                     self.assertLess(flength(fsub(u, v)), 1e-13)
-            unturned = self.poses(x._replace(axes=0), t)
-            self.assertGreater(max(flength(fsub(u, v)) for u, v in zip(unturned, expected)), 1e-3)
+            without_rotation = self.poses(x._replace(axes=0), t)
+            self.assertGreater(max(flength(fsub(u, v)) for u, v in zip(without_rotation, expected)), 1e-3)
             # The usual formula of a joint, with its rotation applied before R0.
             s = x.alpha + t * x.beta
             for e, column in zip(UNIT3, expected[1:]):
                 self.assertLess(flength(fsub(rotate(x.q, turn_by(fscale(s, x.a), e)), column)), 1e-13)
 
     def test_screw_against_its_differential_equation(self):
-        # x' = v + a x (x - center) and center' = v from s = 0, by the Runge-Kutta method.
+        # Integrates x' = v + a x (x - center) and center' = v from s = 0 with the Runge-Kutta method.
         rng = random.Random(13)
         for trial in range(10):
             v, a, p, c, y = ([rng.uniform(-1, 1) for _ in range(3)] for _ in range(5))
@@ -718,9 +718,9 @@ class Joints(Case):
         # A plate is at z = 1. With half of a rotate about x, v and a of the joint point down.
         b, corner = points((2, 0, 0)), (0, (WHOLE, 0, 0))
         plate = mesh([(-9, -9, 1), (9, -9, 1), (0, 9, 1)], [(0, 1, 2)])
-        files, turn, over = (b, certificate(b), plate, certificate(plate), *self.M), 2 * math.pi, (1, 0, 0, 0)
-        ways = (0, (0, 0, 0, 1), 1), (1, (0, 0, 0, 1), 1), (0, over, 1), (1, over, -1)
-        for (axes, q, side), pitch in itertools.product(ways, (0.75, -0.75)):
+        files, turn, half_turn = (b, certificate(b), plate, certificate(plate), *self.M), 2 * math.pi, (1, 0, 0, 0)
+        cases = (0, (0, 0, 0, 1), 1), (1, (0, 0, 0, 1), 1), (0, half_turn, 1), (1, half_turn, -1)
+        for (axes, q, side), pitch in itertools.product(cases, (0.75, -0.75)):
             v, p = (0, 0, pitch / turn), (0, 0, -side * 0.25 * pitch / turn)
             x, gap = moving_link(v, (0, 0, 1), 0.25, turn, axes, p, q, (1, 0, 0)), 0.25 if side * pitch > 0 else 1.0
             def make(margin):
@@ -740,11 +740,11 @@ class Joints(Case):
         rng = random.Random(11)
         for trial in range(40):
             links = random_links(rng, 5, 2.0)
-            exact = self.exact_links(links)
+            checker_links = self.exact_links(links)
             for i, t in itertools.product(range(6), (0.0, 0.375, rng.random())):
-                place = fadd(*[[lo / so.ONE for lo, _ in x.pose(Fraction(t))[1]] for x in exact[i].chain])
+                place = fadd(*[[lo / so.ONE for lo, _ in x.pose(Fraction(t))[1]] for x in checker_links[i].chain])
                 self.assertLess(flength(fsub(place, in_world(links, i, center(links, i), t))), 1e-12)
-                columns = exact[i].pose(Fraction(t))[0]
+                columns = checker_links[i].pose(Fraction(t))[0]
                 for column, e in zip(columns, UNIT3):
                     self.assertLess(flength(fsub([lo / so.ONE for lo, _ in column], direction(links, i, e, t))), 1e-12)
                     self.assertLess(max(hi - lo for lo, hi in column), 1 << 24)
@@ -776,12 +776,12 @@ class Turning(Case):
         # and theta is twice that. The distance of the corners is at most sqrt 18 for A and sqrt 19 for B.
         for depth, frame in itertools.product((3, 4, 5), (1, 2)):
             theta = 1.5 / 2 ** depth
-            lost = theta ** 2 / 2 * math.sqrt(19 if frame == 1 else 18)   # with the frame of A, and of B
+            second_order_loss = theta ** 2 / 2 * math.sqrt(19 if frame == 1 else 18)   # with the frame of A, and of B
             def make(margin):
                 steps = split_evenly(depth, lambda t: leaf(along(math.cos(1.5 * t), math.sin(1.5 * t), 0), frame))
                 return two(self.a, self.b, self.link, self.link, steps, margin)
-            self.holds(self.M, make(1 - lost - 1e-6))
-            self.fails("does not prove", self.M, make(1 - lost + 1e-6))
+            self.holds(self.M, make(1 - second_order_loss - 1e-6))
+            self.fails("does not prove", self.M, make(1 - second_order_loss + 1e-6))
 
     def test_axis_is_in_world_coordinates_at_the_middle(self):
         def at(middle):
@@ -825,7 +825,7 @@ class SecondOrder(Case):
     slightly above is not.
 
     The interval is 0.2 long, and links rotate by 1 radian per time. All meshes are single points."""
-    def bound(self, expected, links, ends, frame, za=(0, 0, 0), zb=(0, 0, 0), axis=X):
+    def bound_is(self, expected, links, ends, frame, za=(0, 0, 0), zb=(0, 0, 0), axis=X):
         a, b = points(za), points(zb)
         files = a, certificate(a), b, certificate(b)
         def make(margin):
@@ -835,84 +835,84 @@ class SecondOrder(Case):
 
     def test_one_joint(self):
         spin = free(w=(0, 0, 1))
-        self.bound(1 - 0.005, [spin, free(p=(1, 0, 0))], (1, 2), 1)                     # theta^2 |d|
+        self.bound_is(1 - 0.005, [spin, free(p=(1, 0, 0))], (1, 2), 1)                     # theta^2 |d|
         # The velocity and the rotation cancel in first order. The second order has theta^2 (|d| + |m|) and 2 theta |m|.
-        self.bound(1 - 0.005 * (1 + 0.1) - 0.1 * 0.1, [spin, free(p=(1, 0.1, 0), v=(0, -1, 0))], (1, 2), 1)
-        self.bound(1 - 0.005, [spin, free()], (1, 2), 1, zb=(1, 0, 0))                  # theta^2 r
+        self.bound_is(1 - 0.005 * (1 + 0.1) - 0.1 * 0.1, [spin, free(p=(1, 0.1, 0), v=(0, -1, 0))], (1, 2), 1)
+        self.bound_is(1 - 0.005, [spin, free()], (1, 2), 1, zb=(1, 0, 0))                  # theta^2 r
         back = free(q=(0, 0, -math.sin(0.05), math.cos(0.05)), w=(0, 0, 1))             # unrotated at the middle
-        self.bound(1 - 0.005, [free(), back], (1, 2), 0, zb=(1, 0, 0))
-        self.bound(1 - 0.005, [back, free()], (1, 2), 0, za=(-1, 0, 0))
+        self.bound_is(1 - 0.005, [free(), back], (1, 2), 0, zb=(1, 0, 0))
+        self.bound_is(1 - 0.005, [back, free()], (1, 2), 0, za=(-1, 0, 0))
         joint = revolute(alpha=-0.1, beta=1.0)
-        self.bound(1 - 0.005, [free(), joint], (1, 2), 0, zb=(1, 0, 0))
-        self.bound(1, [back], (1, 1), 2, za=(0, 1, 0), zb=(1, 1, 0))                    # both bodies rotate together
-        self.bound(1, [joint], (1, 1), 1, za=(0, 1, 0), zb=(1, 1, 0))
+        self.bound_is(1 - 0.005, [free(), joint], (1, 2), 0, zb=(1, 0, 0))
+        self.bound_is(1, [back], (1, 1), 2, za=(0, 1, 0), zb=(1, 1, 0))         # both bodies rotate together
+        self.bound_is(1, [joint], (1, 1), 1, za=(0, 1, 0), zb=(1, 1, 0))
 
     def test_one_axis(self):
-        # theta ignores the directions of the axes. It is 0.2 for two joints, and K' is 0.04.
+        # theta ignores the directions of the axes. For two joints theta is 0.2 and K' is 0.04.
         joint = revolute(alpha=-0.1, beta=1.0)
         back = free(q=(0, 0, -math.sin(0.05), math.cos(0.05)), w=(0, 0, 1))
         # The path has one joint up and one down, so Omega = 0. A is at 1 from its center, and B at sqrt 2.
         for x in (joint, back):
-            self.bound(1 - 0.02, [x, x], (1, 2), 2, za=(0, 1, 0), zb=(1, 1, 0))
-            self.bound(1 - 0.02 * math.sqrt(2), [x, x], (1, 2), 1, za=(0, 1, 0), zb=(1, 1, 0))
+            self.bound_is(1 - 0.02, [x, x], (1, 2), 2, za=(0, 1, 0), zb=(1, 1, 0))
+            self.bound_is(1 - 0.02 * math.sqrt(2), [x, x], (1, 2), 1, za=(0, 1, 0), zb=(1, 1, 0))
         # The second joint is on the first one. It rotates in the same or the opposite direction, or about another axis.
         for axis in ((0, 0, 1), (0, 0, -1), (1, 0, 0), (0.6, 0, 0.8)):
             second = revolute(axis, -0.1, 1.0, on=1)
-            self.bound(1 - 0.02, [joint, second], (0, 2), 0, zb=(1, 0, 0))
-            self.bound(1 - 0.02, [joint, second], (2, 0), 1, zb=(1, 0, 0))
-            self.bound(1 - 0.02, [joint, second, free(p=(1, 0, 0), on=2)], (0, 3), 0)
+            self.bound_is(1 - 0.02, [joint, second], (0, 2), 0, zb=(1, 0, 0))
+            self.bound_is(1 - 0.02, [joint, second], (2, 0), 1, zb=(1, 0, 0))
+            self.bound_is(1 - 0.02, [joint, second, free(p=(1, 0, 0), on=2)], (0, 3), 0)
             # The offset between the joints rotates with the first one.
             second = revolute(axis, -0.1, 1.0, p=(1, 0, 0), on=1)
-            self.bound(1 - 0.005, [joint, second], (0, 2), 0)
+            self.bound_is(1 - 0.005, [joint, second], (0, 2), 0)
         # The joints have different speeds: 0.1 and 0.3.
         second = revolute((0, 0, 0.5), -0.6, 6.0, on=1)
-        self.bound(1 - 0.4 ** 2 / 2, [joint, second], (0, 2), 0, zb=(1, 0, 0))
+        self.bound_is(1 - 0.4 ** 2 / 2, [joint, second], (0, 2), 0, zb=(1, 0, 0))
         # The offset on the second joint becomes longer: theta^2 (|d| + |m|) + 2 theta |m|.
         slide = [joint, revolute(alpha=-0.1, beta=1.0, on=1), prismatic((1, 0, 0), 0.9, 1.0, on=2)]
-        self.bound(1 - 0.1 - (0.04 * 1.1 + 2 * 0.2 * 0.1) / 2, slide, (0, 3), 0)
+        self.bound_is(1 - 0.1 - (0.04 * 1.1 + 2 * 0.2 * 0.1) / 2, slide, (0, 3), 0)
 
     def test_chains(self):
         z, x = revolute(alpha=-0.1, beta=1.0), revolute((1, 0, 0), -0.1, 1.0, on=1)
         # The link rotates about z and then about x, so theta = 0.2. A point on x is on the axis of its own joint.
-        self.bound(1 - 0.02, [z, x], (0, 2), 0, zb=(1, 0, 0))
-        self.bound(1 - 0.02, [z, x], (2, 0), 0, za=(-1, 0, 0))                           # the same for A
-        self.bound(1 - 0.02, [z, x, free(p=(1, 0, 0), on=2)], (0, 3), 0)                 # an offset instead of a point
+        self.bound_is(1 - 0.02, [z, x], (0, 2), 0, zb=(1, 0, 0))
+        self.bound_is(1 - 0.02, [z, x], (2, 0), 0, za=(-1, 0, 0))                           # the same for A
+        self.bound_is(1 - 0.02, [z, x, free(p=(1, 0, 0), on=2)], (0, 3), 0)    # an offset instead of a point
         # The frame rotates with the end of the chain. The path goes up through x and then z, with opposite signs.
-        self.bound(1 - 0.02, [z, x], (2, 0), 1, zb=(1, 0, 0))
-        self.bound(1 - 0.02, [z, x], (0, 2), 2, za=(-1, 0, 0))
+        self.bound_is(1 - 0.02, [z, x], (2, 0), 1, zb=(1, 0, 0))
+        self.bound_is(1 - 0.02, [z, x], (0, 2), 2, za=(-1, 0, 0))
         # The path goes up through x to z, and down through another joint with the same rotation.
         twin = revolute((1, 0, 0), -0.1, 1.0, on=1)
-        self.bound(1 - 0.02, [z, x, twin], (2, 3), 1, zb=(1, 0, 0))
+        self.bound_is(1 - 0.02, [z, x, twin], (2, 3), 1, zb=(1, 0, 0))
         # The path goes up through x, and then along the offset of the twin. Its length is 1. It rotates with z's link.
         twin = revolute((1, 0, 0), -0.1, 1.0, p=(1, 0, 0), on=1)
-        self.bound(1 - 0.005, [z, x, twin], (2, 3), 1)
+        self.bound_is(1 - 0.005, [z, x, twin], (2, 3), 1)
         # Each offset has its own bound. The path from A to B has the offsets 5 and -4, a path from the world only one.
         offset_links = [z, *(revolute((1, 0, 0), -0.1, 1.0, p=(x, 0, 0), on=1) for x in (-5, -4))]
         for frame in (0, 1, 2):
-            self.bound(1 - 0.005 * 9, offset_links, (2, 3), frame)
+            self.bound_is(1 - 0.005 * 9, offset_links, (2, 3), frame)
         # A prismatic joint does not rotate. Its offset of 3 and the next offset of 4 rotate with the joint before.
         slide = [z, prismatic((1, 0, 0), -3.0, 0.0, on=1), revolute((1, 0, 0), -0.1, 1.0, p=(4, 0, 0), on=2)]
-        self.bound(1 - 0.005 * 7, slide, (0, 3), 0)
+        self.bound_is(1 - 0.005 * 7, slide, (0, 3), 0)
         # The offset becomes longer: theta^2 (|d| + |m|) + 2 theta |m|.
         slide = [z, prismatic((1, 0, 0), 0.9, 1.0, on=1)]
-        self.bound(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, slide, (0, 2), 0)
+        self.bound_is(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, slide, (0, 2), 0)
         # A screw rotates, and its offset becomes longer. The offset comes before the rotation, and the point after it.
         screw = [z, moving_link((1, 0, 0), (0, 0, 1), -0.1, 1.0, 1, p=(1, 0, 0), on=1)]
-        self.bound(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, screw, (0, 2), 0)
-        self.bound(2 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1 + 0.04) / 2, screw, (0, 2), 0, zb=(1, 0, 0))
+        self.bound_is(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, screw, (0, 2), 0)
+        self.bound_is(2 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1 + 0.04) / 2, screw, (0, 2), 0, zb=(1, 0, 0))
         # In the frame of the screw, the path has the rotation before the offset. A is at the position of z.
-        self.bound(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, screw, (1, 2), 2)
+        self.bound_is(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, screw, (1, 2), 2)
 
     def test_three_joints(self):
         # theta = 0.3 for any axes in any order. Along one axis the bound is tight.
         for axis in ((0, 1, 0), (math.sqrt(0.5), 0, math.sqrt(0.5)), (0, 0, 1), (1, 0, 0)):
             joints = [revolute(alpha=-0.1, beta=1.0), revolute((1, 0, 0), -0.1, 1.0, on=1),
                       revolute(axis, -0.1, 1.0, on=2)]
-            self.bound(1 - 0.09 / 2, joints, (0, 3), 0, zb=(1, 0, 0))
-            self.bound(1 - 0.09 / 2, joints, (3, 0), 0, za=(-1, 0, 0))
-            self.bound(1 - 0.09 / 2, joints, (3, 0), 1, zb=(1, 0, 0))
+            self.bound_is(1 - 0.09 / 2, joints, (0, 3), 0, zb=(1, 0, 0))
+            self.bound_is(1 - 0.09 / 2, joints, (3, 0), 0, za=(-1, 0, 0))
+            self.bound_is(1 - 0.09 / 2, joints, (3, 0), 1, zb=(1, 0, 0))
         joints = [revolute(alpha=-0.1, beta=1.0, on=i) for i in range(3)]
-        self.bound(1 - 0.09 / 2, joints, (0, 3), 0, zb=(1, 0, 0))
+        self.bound_is(1 - 0.09 / 2, joints, (0, 3), 0, zb=(1, 0, 0))
 
 
 class SecondDerivatives(Case):
@@ -920,7 +920,7 @@ class SecondDerivatives(Case):
     # The weights of the finite difference formula for the second derivative.
     STENCIL, STEP = (1 / 90, -3 / 20, 3 / 2, -49 / 18, 3 / 2, -3 / 20, 1 / 90), 0.02
 
-    def seen(self, links, frame, end, t):
+    def pose_in_frame(self, links, frame, end, t):
         """Returns the position of the center and the axes of the link `end`, in the frame of the link `frame`."""
         origin, axes = in_world(links, frame, center(links, frame), t), [direction(links, frame, e, t) for e in UNIT3]
         place = fsub(in_world(links, end, center(links, end), t), origin)
@@ -937,12 +937,12 @@ class SecondDerivatives(Case):
 
     def fractions(self, links, frame, end, t0, t1):
         """Returns the largest ratio of a sampled derivative to its bound: K and K'. It is None for a small bound."""
-        exact, t, h = self.exact_links(links), (t0 + t1) / 2, (t1 - t0) / 2
-        *_, k, k_prime = so.motion(exact[frame], exact[end], Fraction(t), so.fix(Fraction(h)))
+        checker_links, t, h = self.exact_links(links), (t0 + t1) / 2, (t1 - t0) / 2
+        *_, k, k_prime = so.motion(checker_links[frame], checker_links[end], Fraction(t), so.fix(Fraction(h)))
         maxima, out = [0, 0], []
         for i in range(-4, 5):
-            sides = [self.seen(links, frame, end, t + (i / 4 + j * self.STEP) * h) for j in range(-3, 4)]
-            place, *columns = [fscale(self.STEP ** -2, fadd(*map(fscale, self.STENCIL, v))) for v in zip(*sides)]
+            samples = [self.pose_in_frame(links, frame, end, t + (i / 4 + j * self.STEP) * h) for j in range(-3, 4)]
+            place, *columns = [fscale(self.STEP ** -2, fadd(*map(fscale, self.STENCIL, v))) for v in zip(*samples)]
             maxima = [*map(max, maxima, (flength(place), self.longest(columns)))]
         for min_tolerance, bound in zip(maxima, (k / so.ONE, k_prime / so.ONE)):
             self.assertLessEqual(min_tolerance, bound * (1 + 1e-6) + 1e-8)
@@ -977,8 +977,8 @@ class SecondDerivatives(Case):
             # The path goes up and down, with opposite rotations.
             down = [x._replace(beta=-x.beta, alpha=-x.alpha, on=x.on and x.on + count) for x in joints]
             both = [*joints, *down, free(p=(1, 0, 0), on=2 * count)]
-            place, turned = self.fractions(both, count, 2 * count + 1, 0.25, 0.5)
-            self.assertGreater(min(place, turned), 0.999)
+            place, along_parent_axes = self.fractions(both, count, 2 * count + 1, 0.25, 0.5)
+            self.assertGreater(min(place, along_parent_axes), 0.999)
         # An offset that passes the axis needs 2 theta |m|. Its theta^2 |m| is comparatively small.
         for half, least in ((0.05, 0.95), (0.01, 0.99)):
             slide = [revolute(beta=1.0), prismatic((1000, 0, 0), -0.5, 1.0, on=1)]
@@ -990,90 +990,90 @@ class SecondDerivatives(Case):
 class Balls(Case):
     """Tests leaves with balls. A margin slightly below the expected bound is proven, and one slightly above is not.
     Distances are exact in binary64, except after rotations."""
-    def exactly(self, expected, a, b, la, lb, step, slack=0.0, **more):
-        self.bound(expected, [la, lb], a, b, (1, 2), step, slack, **more)
+    def pair_bound_is(self, expected, a, b, la, lb, step, slack=0.0, **more):
+        self.bound_is(expected, [la, lb], a, b, (1, 2), step, slack, **more)
 
-    def bound(self, expected, links, a, b, ends, step, slack=1e-9, orders=(None, None), **more):
+    def bound_is(self, expected, links, a, b, ends, step, slack=1e-9, orders=(None, None), **more):
         files = [x for m, order in zip((a, b), orders) for x in (m, certificate(m, order))]
         def make(margin): return proof(links, [(a, ends[0]), (b, ends[1])], [(0, 1, margin)], step, **more)
         if expected <= 0:
             self.fails("is too near", files, make(0.0))
         else:
             self.holds(files, make(expected - slack if slack else math.nextafter(expected, 0)))
-            why = f"the ball around {'AB'[step[0] - 6]} of pair 0 is too near the other node"
-            self.fails(why, files, make(expected + slack))
+            reason = f"the ball around {'AB'[step[0] - 6]} of pair 0 is too near the other node"
+            self.fails(reason, files, make(expected + slack))
 
-    def both(self, want_a, want_b, a, b, la=free(), lb=free(), slack=0.0, **more):
+    def bounds_are(self, want_a, want_b, a, b, la=free(), lb=free(), slack=0.0, **more):
         """Tests the margins that a ball around A and one around B prove, and the same with A and B exchanged."""
         for expected, step, other in ((want_a, AROUND_A, AROUND_B), (want_b, AROUND_B, AROUND_A)):
-            self.exactly(expected, a, b, la, lb, step, slack, **more)
-            self.exactly(expected, b, a, lb, la, other, slack, **more)
+            self.pair_bound_is(expected, a, b, la, lb, step, slack, **more)
+            self.pair_bound_is(expected, b, a, lb, la, other, slack, **more)
 
     def test_points(self):
         for x, y, z, distance in ((1, 0, 0, 1), (0, -2, 0, 2), (0, 0, 0.5, 0.5), (3, -4, 12, 13), (-2, 3, 6, 7),
                              (0, 0, 0, 0)):
-            self.both(distance, distance, POINT, points((x, y, z)))
-            self.both(distance, distance, POINT, POINT, free(p=(1, 2, 3)), free(p=(1 + x, 2 + y, 3 + z)))
-            self.both(distance, distance, POINT, points((x - 1, y + 2, z)), lb=free(p=(1, -2, 0), c=(7, 8, -9)))
+            self.bounds_are(distance, distance, POINT, points((x, y, z)))
+            self.bounds_are(distance, distance, POINT, POINT, free(p=(1, 2, 3)), free(p=(1 + x, 2 + y, 3 + z)))
+            self.bounds_are(distance, distance, POINT, points((x - 1, y + 2, z)), lb=free(p=(1, -2, 0), c=(7, 8, -9)))
 
     def test_radii(self):
         for ra, rb in ((0.25, 0), (0, 0.25), (0.5, 0.125), (0.75, 0.25), (2, 0)):
-            self.both(1 - ra - rb, 1 - ra - rb, points((0, 0, 0, ra)), points((0, 0, 1, rb)))
+            self.bounds_are(1 - ra - rb, 1 - ra - rb, points((0, 0, 0, ra)), points((0, 0, 1, rb)))
         # The ball's center is that of the bounding box of the vertices, and the largest radius is added to its radius.
-        self.both(1.5, 1.5, points((0, 0, 0), (2, 0, 0, 0.5)), points((4, 0, 0)))
-        self.both(1.5, 2, points((0, 0, 0, 0.5), (2, 0, 0)), points((4, 0, 0)))
+        self.bounds_are(1.5, 1.5, points((0, 0, 0), (2, 0, 0, 0.5)), points((4, 0, 0)))
+        self.bounds_are(1.5, 2, points((0, 0, 0, 0.5), (2, 0, 0)), points((4, 0, 0)))
         # Boxes of the other node are split down to triangles. A triangle counts with the largest radius of its corners.
         a = points((0, 0, 0, 0.125))
-        self.exactly(0.625, a, points((1, 0, 0, 0.25), (3, 0, 0, 1.5)), free(), free(), AROUND_A)
+        self.pair_bound_is(0.625, a, points((1, 0, 0, 0.25), (3, 0, 0, 1.5)), free(), free(), AROUND_A)
         b = mesh([(1, 0, 0), (3, 0, 0, 0.5), (3, 1, 0)], [(0, 1, 2)])
-        self.exactly(0.875 - 0.5, a, b, free(), free(), AROUND_A)
+        self.pair_bound_is(0.875 - 0.5, a, b, free(), free(), AROUND_A)
 
     def test_ball_is_around_the_box(self):
         # The box of A is 6 by 8 around (7, -2, 1), with most vertices at one end.
         a = points((4, -2, 5), (10, -2, 5), (4, -2, -3), (4, -2, 4.5), (4, -2, 4))
         for place, distance in (((7, -10, 1), 8), ((7, 10, 1), 12), ((22, -2, 1), 15), ((10, 2, 13), 13),
                                 ((7, 3, 1), 5)):
-            self.exactly(distance - 5, a, points(place), free(), free(), AROUND_A)
+            self.pair_bound_is(distance - 5, a, points(place), free(), free(), AROUND_A)
         a = mesh([(4, -2, 5), (10, -2, 5), (4, -2, -3)], [(0, 1, 2)])
         for place, distance, near in (((7, -10, 1), 8, 8), ((7, 10, 1), 12, 12), ((22, -2, 1), 15, 12),
                                       ((7, 3, 1), 5, 5)):
-            self.both(distance - 5, near, a, points(place))
-        self.exactly(13 - 2.5, points((0, 0, 0), (3, 4, 0)), points((4.5, 6, 12)), free(), free(), AROUND_A)
+            self.bounds_are(distance - 5, near, a, points(place))
+        self.pair_bound_is(13 - 2.5, points((0, 0, 0), (3, 4, 0)), points((4.5, 6, 12)), free(), free(), AROUND_A)
         # The ball reaches the farthest vertex, not the corners of the box. Here its radius is 4 around the origin.
         a = points((-3, 0, 0), (0, 0, 4), (3, 0, 0), (0, 0, -4))
         for order in itertools.permutations(range(4)):
-            self.bound(13 - 4, [], a, points((5, 12, 0)), (0, 0), AROUND_A, 0.0, orders=(order, None))
+            self.bound_is(13 - 4, [], a, points((5, 12, 0)), (0, 0), AROUND_A, 0.0, orders=(order, None))
         # The farthest vertex and the largest radius may belong to different vertices.
         a = points((-3, 0, 0, 0.5), (0, 0, 4, 0.25), (3, 0, 0, 0.75), (0, 0, -4))
-        self.exactly(13 - 4.75, a, points((5, 12, 0)), free(), free(), AROUND_A)
+        self.pair_bound_is(13 - 4.75, a, points((5, 12, 0)), free(), free(), AROUND_A)
 
     def test_other_part_is_boxes_of_triangles(self):
         # A point is in the box of a triangle, but not in the triangle. No ball separates them, but a plane does.
         b = mesh([(0, 0, 0), (2, 0, 0), (0, 2, 0)], [(0, 1, 2)])
-        self.exactly(0, points((1.5, 1.5, 0)), b, free(), free(), AROUND_A)
-        self.exactly(0, points((2, 2, 0)), b, free(), free(), AROUND_A)
-        self.exactly(1, points((2, 3, 0)), b, free(), free(), AROUND_A)
-        self.exactly(5, points((5, 6, 0)), b, free(), free(), AROUND_A)
-        self.exactly(13, points((5, 6, -12)), b, free(), free(), AROUND_A)
-        self.exactly(13, points((-3, -4, 12)), b, free(), free(), AROUND_A)
-        self.exactly(3, points((1, -3, 0)), b, free(), free(), AROUND_A)
+        self.pair_bound_is(0, points((1.5, 1.5, 0)), b, free(), free(), AROUND_A)
+        self.pair_bound_is(0, points((2, 2, 0)), b, free(), free(), AROUND_A)
+        self.pair_bound_is(1, points((2, 3, 0)), b, free(), free(), AROUND_A)
+        self.pair_bound_is(5, points((5, 6, 0)), b, free(), free(), AROUND_A)
+        self.pair_bound_is(13, points((5, 6, -12)), b, free(), free(), AROUND_A)
+        self.pair_bound_is(13, points((-3, -4, 12)), b, free(), free(), AROUND_A)
+        self.pair_bound_is(3, points((1, -3, 0)), b, free(), free(), AROUND_A)
         a = points((1.5, 1.5, 0))
         apart = two(a, b, free(), free(), leaf(along(-math.sqrt(0.5), -math.sqrt(0.5), 0)), 0.7)
         self.holds((a, certificate(a), b, certificate(b)), apart)
         # The nearest triangle counts, at any index. The boxes of most nodes contain the point.
         b = points((-3, -4, 0), (6, 8, 0), (0, 2, 0), (0, 7, 0))
         for order in itertools.permutations(range(4)):
-            self.bound(2, [], points((0, 0, 0)), b, (0, 0), AROUND_A, 0.0, orders=(None, order))
+            self.bound_is(2, [], points((0, 0, 0)), b, (0, 0), AROUND_A, 0.0, orders=(None, order))
 
     def test_moves(self):
         # B passes A. At half of the time it is 4 away. It moves by 3 to both sides of that point.
-        self.both(1, 1, POINT, points((5, 0, 0)), lb=free(p=(-1, -3, 0), v=(0, 6, 0)))
-        self.both(1, 1, POINT, POINT, la=free(v=(1, 0, 0)), lb=free(p=(4, -3, 0), v=(1, 6, 0)))
-        self.both(3, 3, POINT, POINT, lb=free(p=(5, 0, 0), v=(-2, 0, 0)))
-        self.both(3, 3, POINT, POINT, lb=prismatic((-1, 0, 0), -5.0, 2.0))
-        self.both(0, 0, POINT, POINT, lb=free(p=(5, 0, 0), v=(-5, 0, 0)))
-        self.both(2, 2, POINT, POINT, lb=free(p=(5, 0, 0), v=(-2, 0, 0)), duration=1.5)
-        self.both(5, 5, POINT, POINT, lb=free(p=(5, 0, 0), v=(-2, 0, 0)), duration=0.0)
+        self.bounds_are(1, 1, POINT, points((5, 0, 0)), lb=free(p=(-1, -3, 0), v=(0, 6, 0)))
+        self.bounds_are(1, 1, POINT, POINT, la=free(v=(1, 0, 0)), lb=free(p=(4, -3, 0), v=(1, 6, 0)))
+        self.bounds_are(3, 3, POINT, POINT, lb=free(p=(5, 0, 0), v=(-2, 0, 0)))
+        self.bounds_are(3, 3, POINT, POINT, lb=prismatic((-1, 0, 0), -5.0, 2.0))
+        self.bounds_are(0, 0, POINT, POINT, lb=free(p=(5, 0, 0), v=(-5, 0, 0)))
+        self.bounds_are(2, 2, POINT, POINT, lb=free(p=(5, 0, 0), v=(-2, 0, 0)), duration=1.5)
+        self.bounds_are(5, 5, POINT, POINT, lb=free(p=(5, 0, 0), v=(-2, 0, 0)), duration=0.0)
         lb = free(p=(4, -3, 0), v=(0, 6, 0))
         for step in (AROUND_A, AROUND_B):
             made = [two(POINT, POINT, free(), lb, split_evenly(1, lambda _: step), margin) for margin in (2.77, 2.78)]
@@ -1085,78 +1085,79 @@ class Balls(Case):
         for ticks, expected in ((1, 10 - 1), (2, 9 - 1), (3, 9 - 2), (4, 8 - 2)):
             for duration in ticks - 1.0, ticks - 0.5:
                 more = {"lb": free(p=(10, 0, 0), v=(-1, 0, 0)), "duration": duration, "units": TICKS}
-                self.both(expected, expected, POINT, POINT, **more)
+                self.bounds_are(expected, expected, POINT, POINT, **more)
 
     def test_units(self):
         a, b = points((0, 0, 0, 0.125), (6, 0, 8)), points((3, 12, 4, 0.125), (3, 20, 4))
         for e in (-1000, -60, -40, 0, 3, 40, 100):
             for lb in (free(), free(p=(0, -1, 0), v=(0, 2, 0)), free(c=(2.0 ** -60, 2.0 ** 40, 0))):
                 drop = any(lb.v)
-                self.exactly(12 - 5 - 0.25 - drop, a, b, free(), lb, AROUND_A, 1e-6 if e > 64 else 0.0, units=(e, 0))
-        big = 2.0 ** 990
-        self.both(2 * big, 2 * big, POINT, points((0, 3 * big, 0, big)), units=(950, 0))
+                slack = 1e-6 if e > 64 else 0.0
+                self.pair_bound_is(12 - 5 - 0.25 - drop, a, b, free(), lb, AROUND_A, slack, units=(e, 0))
+        large = 2.0 ** 990
+        self.bounds_are(2 * large, 2 * large, POINT, points((0, 3 * large, 0, large)), units=(950, 0))
         tiny = 5e-324
-        self.both(2 * tiny, 2 * tiny, POINT, points((0, 3 * tiny, 0, tiny)), units=(-1074, 0))
+        self.bounds_are(2 * tiny, 2 * tiny, POINT, points((0, 3 * tiny, 0, tiny)), units=(-1074, 0))
 
     def test_both_move_together(self):
         # The frame is the other body's link.
         a, b = points((20, 0, 0)), points((23, 4, 0))
-        fly = free(p=(-4.5, 4.5, -4.5), v=(9, -9, 9))
-        self.both(5, 5, a, b, fly, fly)
-        self.both(0, 0, a, b, fly, free())          # each moves by 7.8 to both sides
-        self.both(0, 0, a, b, free(), fly)
+        common_motion = free(p=(-4.5, 4.5, -4.5), v=(9, -9, 9))
+        self.bounds_are(5, 5, a, b, common_motion, common_motion)
+        self.bounds_are(0, 0, a, b, common_motion, free())          # each moves by 7.8 to both sides
+        self.bounds_are(0, 0, a, b, free(), common_motion)
         for spin in (revolute(beta=6.0), revolute((1, 2, -2), 1.0, 2.0, p=(1, 1, 1)),
                      free(w=(3, -6, 6), v=(1, 9, 9), c=(1, 2, 3))):
             for step in (AROUND_A, AROUND_B):
-                self.bound(5, [spin], a, b, (1, 1), step)
-                self.bound(5, [spin, free(p=(1, 0, 0), on=1), free(p=(1, 3, 4), on=1)], POINT, POINT, (2, 3), step)
+                self.bound_is(5, [spin], a, b, (1, 1), step)
+                self.bound_is(5, [spin, free(p=(1, 0, 0), on=1), free(p=(1, 3, 4), on=1)], POINT, POINT, (2, 3), step)
                 # One of them slides on the rotating link, by 1 to both sides of (3, 4, 0).
-                self.bound(4, [spin, free(on=1), free(p=(2, 4, 0), v=(2, 0, 0), on=1)], POINT, POINT, (2, 3), step)
-                self.bound(0, [spin, free(on=1)], a, b, (2, 0), step)
-                self.bound(0, [spin, free(on=1)], a, b, (0, 2), step)
+                self.bound_is(4, [spin, free(on=1), free(p=(2, 4, 0), v=(2, 0, 0), on=1)], POINT, POINT, (2, 3), step)
+                self.bound_is(0, [spin, free(on=1)], a, b, (2, 0), step)
+                self.bound_is(0, [spin, free(on=1)], a, b, (0, 2), step)
 
     def test_turning(self):
         # A rotates by 0.5 to both sides. The corner at distance 2 moves by 1 in first order, and the second order adds
         # half of 0.25 * 2. In the frame of A, the corner of B at distance 10 rotates instead.
         corner, distance, back = points((2, 0, 0)), points((10, 0, 0)), (0, 0, -math.sin(0.25), math.cos(0.25))
         for a in (revolute(alpha=-0.5, beta=1.0), revolute((0, 0, -0.25), 2.0, -4.0), free(q=back, w=(0, 0, 1))):
-            self.both(8 - 1 - 0.25, 8 - 5 - 1.25, corner, distance, a, free(), 1e-9)
-            self.both(7.75 - 1 - 0.25, 7.75 - 5 - 1.25, points((2, 0, 0, 0.25)), distance, a, free(), 1e-9)
+            self.bounds_are(8 - 1 - 0.25, 8 - 5 - 1.25, corner, distance, a, free(), 1e-9)
+            self.bounds_are(7.75 - 1 - 0.25, 7.75 - 5 - 1.25, points((2, 0, 0, 0.25)), distance, a, free(), 1e-9)
             # The center of the ball counts, not the corners of the node.
-            self.both(10, 10 - 5 - 1.25, POINT, distance, a, free(), 1e-9)
-            self.exactly(10 - 3, points((-3, 0, 0), (3, 0, 0)), distance, a, free(), AROUND_A, 1e-9)
-            self.exactly(8 - 3 - 1 - 0.25, points((-1, 0, 0), (5, 0, 0)), distance, a, free(), AROUND_A, 1e-9)
+            self.bounds_are(10, 10 - 5 - 1.25, POINT, distance, a, free(), 1e-9)
+            self.pair_bound_is(10 - 3, points((-3, 0, 0), (3, 0, 0)), distance, a, free(), AROUND_A, 1e-9)
+            self.pair_bound_is(8 - 3 - 1 - 0.25, points((-1, 0, 0), (5, 0, 0)), distance, a, free(), AROUND_A, 1e-9)
             # On the axis nothing moves, but the bound of the second derivative ignores the direction of the offset.
-            self.both(10 - 0.25, 10 - 1.5, points((0, 0, 2)), points((0, 0, 12)), a, free(), 1e-9)
+            self.bounds_are(10 - 0.25, 10 - 1.5, points((0, 0, 2)), points((0, 0, 12)), a, free(), 1e-9)
         # With another center, the corner is at distance 2 from it.
         a = free(p=fscale(-5, rotate(back, (1, 0, 0))), q=back, w=(0, 0, 1), c=(5, 0, 0))
-        self.exactly(8 - 1 - 0.25, points((7, 0, 0)), distance, a, free(), AROUND_A, 1e-9)
+        self.pair_bound_is(8 - 1 - 0.25, points((7, 0, 0)), distance, a, free(), AROUND_A, 1e-9)
         # At the middle of the time A points to y.
         a = revolute(alpha=math.pi / 2 - 0.5, beta=1.0)
-        self.exactly(8 - 1.25, corner, points((0, 10, 0)), a, free(), AROUND_A, 1e-9)
-        self.exactly(math.sqrt(104) - 1.25, corner, distance, a, free(), AROUND_A, 1e-9)
+        self.pair_bound_is(8 - 1.25, corner, points((0, 10, 0)), a, free(), AROUND_A, 1e-9)
+        self.pair_bound_is(math.sqrt(104) - 1.25, corner, distance, a, free(), AROUND_A, 1e-9)
         # Half of the velocity, and the rotation's displacement of 1 along y, are added as vectors.
         for v, m in (((6, 0, 0), math.hypot(3, 1)), ((0, 6, 0), 4), ((0, -2, 0), 0), ((0, -6, 0), 2),
                      ((0, 0, 1), math.hypot(1, 0.5))):
             a = free(p=fscale(-0.5, v), q=back, v=v, w=(0, 0, 1))
-            self.exactly(8 - m - 0.25, corner, distance, a, free(), AROUND_A, 1e-9)
+            self.pair_bound_is(8 - m - 0.25, corner, distance, a, free(), AROUND_A, 1e-9)
 
     def test_chains(self):
         # As in SecondOrder, the interval is 0.2 long, and each joint rotates by 0.1 to both sides.
         z, x, k = revolute(alpha=-0.1, beta=1.0), revolute((1, 0, 0), -0.1, 1.0, on=1), 0.2 ** 2
         one, distance = points((1, 0, 0)), points((10, 0, 0))
-        self.bound(9 - 0.1 - k / 2, [z, x], one, distance, (2, 0), AROUND_A, duration=0.2)
-        self.bound(9 - 0.1 - k / 2, [z, x], distance, one, (0, 2), AROUND_B, duration=0.2)
-        self.bound(9 - 0.1 - k / 2, [z, x, free(p=(1, 0, 0), on=2)], POINT, distance, (3, 0), AROUND_A, duration=0.2)
-        self.bound(9 - 1 - 10 * k / 2, [z, x], one, distance, (2, 0), AROUND_B, duration=0.2)
+        self.bound_is(9 - 0.1 - k / 2, [z, x], one, distance, (2, 0), AROUND_A, duration=0.2)
+        self.bound_is(9 - 0.1 - k / 2, [z, x], distance, one, (0, 2), AROUND_B, duration=0.2)
+        self.bound_is(9 - 0.1 - k / 2, [z, x, free(p=(1, 0, 0), on=2)], POINT, distance, (3, 0), AROUND_A, duration=0.2)
+        self.bound_is(9 - 1 - 10 * k / 2, [z, x], one, distance, (2, 0), AROUND_B, duration=0.2)
         # In the frame of the link of z, only x rotates, about the axis through the point.
-        self.bound(9 - 0.005, [z, x], one, distance, (2, 1), AROUND_A, duration=0.2)
-        self.bound(9 - 0.05, [z, x], one, distance, (2, 1), AROUND_B, duration=0.2)
+        self.bound_is(9 - 0.005, [z, x], one, distance, (2, 1), AROUND_A, duration=0.2)
+        self.bound_is(9 - 0.05, [z, x], one, distance, (2, 1), AROUND_B, duration=0.2)
         # Two joints rotate by the same angle, so the links are static relative to each other. The lemmas ignore
         # that the joints have the same axis.
         twin = revolute((1, 0, 0), -0.1, 1.0, on=1)
-        self.bound(9 - k / 2, [z, x, twin], one, distance, (2, 3), AROUND_A, duration=0.2)
-        self.bound(9 - 10 * k / 2, [z, x, twin], one, distance, (2, 3), AROUND_B, duration=0.2)
+        self.bound_is(9 - k / 2, [z, x, twin], one, distance, (2, 3), AROUND_A, duration=0.2)
+        self.bound_is(9 - 10 * k / 2, [z, x, twin], one, distance, (2, 3), AROUND_B, duration=0.2)
 
     def test_axes_of_links(self):
         # B is a rod along its own x, which is rotated to y = x. In its frame A is at (12, 5), or at (-5, -12).
@@ -1164,21 +1165,21 @@ class Balls(Case):
         rod_b = points(*[(i, 0, 0) for i in range(25)])
         for up in (free, revolute, prismatic):
             lb = up(p=(1, 2, 3), q=q)
-            self.exactly(5, points((1 + 7 * s, 2 + 17 * s, 3)), rod_b, free(), lb, AROUND_A, 1e-9)
-            self.exactly(13, points((1 + 7 * s, 2 - 17 * s, 3)), rod_b, free(), lb, AROUND_A, 1e-9)
+            self.pair_bound_is(5, points((1 + 7 * s, 2 + 17 * s, 3)), rod_b, free(), lb, AROUND_A, 1e-9)
+            self.pair_bound_is(13, points((1 + 7 * s, 2 - 17 * s, 3)), rod_b, free(), lb, AROUND_A, 1e-9)
         # The center of the ball around A is at (0, 1, 0) after a quarter turn. The rotation of B does not matter.
         a, quarter = points((0, 0, 0), (2, 0, 0)), (0, 0, math.sqrt(0.5), math.sqrt(0.5))
         for qb in ((0, 0, 0, 1), quarter, (0.5, 0.5, 0.5, 0.5)):
-            self.exactly(1, a, POINT, free(q=quarter), free(p=(0, 3, 0), q=qb), AROUND_A, 1e-9)
-            self.exactly(4, a, POINT, free(q=quarter), free(p=(3, 5, 0), q=qb), AROUND_A, 1e-9)
+            self.pair_bound_is(1, a, POINT, free(q=quarter), free(p=(0, 3, 0), q=qb), AROUND_A, 1e-9)
+            self.pair_bound_is(4, a, POINT, free(q=quarter), free(p=(3, 5, 0), q=qb), AROUND_A, 1e-9)
         # Both links have centers that are not at the origin.
         la, lb = free(q=quarter, c=(3, 1, 2)), free(p=(0, 3, 0), q=quarter, c=(-1, 4, 2))
-        self.exactly(1, a, POINT, la, lb, AROUND_A, 1e-9)
+        self.pair_bound_is(1, a, POINT, la, lb, AROUND_A, 1e-9)
 
     def test_parts(self):
         # The ball around the whole A contains B. The balls around its points do not.
         a, b = points((0, 0, 0), (6, 0, 0)), points((3, 4, 0))
-        self.exactly(1, a, b, free(), free(), AROUND_A)
+        self.pair_bound_is(1, a, b, free(), free(), AROUND_A)
         files = a, certificate(a), b, certificate(b)
         def make(steps, margin): return two(a, b, free(), free(), steps, margin)
         for steps in (b"\0" + AROUND_A + AROUND_A, b"\0" + AROUND_B + AROUND_A, AROUND_B):
@@ -1193,8 +1194,8 @@ class Balls(Case):
                 self.fails("is too near", files, make(ball, 0.5), make(b"\0" + ball + ball, 0.5))
                 steps = [plane, ball] if first else [ball, plane]
                 self.holds(files, make(b"\0" + b"".join(steps), 0.5))
-                why = f"the ball around {'AB'[ball[0] - 6]} of"
-                self.fails(why, files, make(b"\0" + b"".join(reversed(steps)), 0.5))
+                reason = f"the ball around {'AB'[ball[0] - 6]} of"
+                self.fails(reason, files, make(b"\0" + b"".join(reversed(steps)), 0.5))
         # The same with B split, by step 1.
         a, b = b, a
         files = a, certificate(a), b, certificate(b, (0, 1))
@@ -1311,15 +1312,15 @@ class Parts(Case):
 
     def test_moved_by_one_unit(self):
         # The gaps are exactly 0.25. Moving a corner by one unit in the last place makes the gap smaller.
-        exact = math.nextafter(0.25, 0)
+        checker_links = math.nextafter(0.25, 0)
         steps = b"\0" + leaf(X) + leaf(Y)
-        self.holds(*self.notch(steps, margin=exact))
+        self.holds(*self.notch(steps, margin=checker_links))
         for i, axis in ((0, 0), (2, 0), (0, 1)):
             vertices = [[-0.75, -0.75, 0], [-0.5, -0.75, 0], [-0.75, -0.5, 0]]
             vertices[i][axis] = math.nextafter(-0.75, -1)
             self.b = mesh(vertices, [(0, 1, 2)])
             self.cb = certificate(self.b)
-            self.fails("does not prove", *self.notch(steps, margin=exact))
+            self.fails("does not prove", *self.notch(steps, margin=checker_links))
 
     def test_order(self):
         steps = b"\0" + leaf(X) + leaf(Y), b"\0" + leaf(Y) + leaf(X)
@@ -1365,11 +1366,11 @@ class Parts(Case):
         orders = list(itertools.permutations(range(6)))
         for _ in range(40):
             files = a, certificate(a, tree=random_tree(rng, rng.choice(orders))), POINT, POINT_TREE
-            for step, height, distance, why in ((AROUND_B, 0, 2, "is too near"), (leaf(Z), 4, 3, "does not prove"),
+            for step, height, distance, reason in ((AROUND_B, 0, 2, "is too near"), (leaf(Z), 4, 3, "does not prove"),
                                            (leaf(minus(Z)), -4, 4, "does not prove")):
                 def make(margin): return two(a, POINT, free(), free(p=(0, 0, height)), step, margin)
                 self.holds(files, make(math.nextafter(distance, 0)))
-                self.fails(why, files, make(float(distance)))
+                self.fails(reason, files, make(float(distance)))
 
     def test_balls_around_parts_of_uneven_trees(self):
         # The ball around 0 and 1 has radius 1 and center (1, 0, 0). With 2 it has radius 3 and center (3, 0, 0).
@@ -1392,12 +1393,12 @@ class Parts(Case):
                 nodes, read = triangles_of(tree), so.Tree(*self.files(data, certificate(data, tree=tree)))
                 self.assertEqual((len(read.ranges), len(read.children)), (2 * count - 1, 2 * count - 1))
                 self.assertEqual([[t[0] for t in read.triangles[i:j]] for i, j in read.ranges], nodes)
-                def same(node, tree):   # compares the children of a node with the pair of trees
+                def assert_same_children(node, tree):   # compares the children of a node with the pair of trees
                     self.assertEqual(nodes[node], triangles_of(tree)[0])
                     self.assertEqual(len(read.children[node]), 0 if isinstance(tree, int) else 2)
                     for half, child in zip(read.children[node], () if isinstance(tree, int) else tree):
-                        same(half, child)
-                same(0, tree)
+                        assert_same_children(half, child)
+                assert_same_children(0, tree)
 
     def test_deep_trees(self):
         # The points are around B, which is inside the box of each node with more than one point.
@@ -1412,8 +1413,8 @@ class Parts(Case):
             self.fails("is too near", files, make(AROUND_B, margin=1.0), make(AROUND_A))
             self.fails("does not prove", files, make(leaf(Z), 1, 1.0))
             # The proof has all 90 splits, down to points. Each first child is a point, or all splits come first.
-            sides = [leaf(axis) for axis in (minus(X), X, minus(Y), Y)]
-            each = [sides[i % 4] for i in range(91)]
+            leaves = [leaf(axis) for axis in (minus(X), X, minus(Y), Y)]
+            each = [leaves[i % 4] for i in range(91)]
             steps = b"".join(b"\0" + x for x in each[:-1]) + each[-1] if to == 0 else b"\0" * 90 + b"".join(each)
             self.holds(files, make(steps, margin=0.99))
             self.fails("does not prove", files, make(steps, margin=1.0), make(steps.replace(each[2], each[1])))
@@ -1422,9 +1423,9 @@ class Parts(Case):
             files = deep, certificate(deep, numbers=one_sided_numbers(5001, to)), *files
             for bodies, split in (((deep, POINT), b"\0"), ((POINT, deep), b"\1"), ((deep, deep), b"\0")):
                 all_steps = *(AROUND_A, AROUND_B, leaf(Z)), split + AROUND_A * 2, split + leaf(Z) * 2
-                all_made = [two(*bodies, free(), free(p=(0, 0, 2.5)), steps) for steps in all_steps]
-                lines = self.run_files(files, *all_made, make(AROUND_B))
-                self.assertEqual(lines[:-1], [["unverifiable", "a tree is too deep"]] * len(all_made))
+                proofs = [two(*bodies, free(), free(p=(0, 0, 2.5)), steps) for steps in all_steps]
+                lines = self.run_files(files, *proofs, make(AROUND_B))
+                self.assertEqual(lines[:-1], [["unverifiable", "a tree is too deep"]] * len(proofs))
                 self.assertEqual(lines[-1][0], "holds")
             self.holds(files, proof([], [(deep, 0), (POINT, 0)], [], b""))
 
@@ -1581,7 +1582,7 @@ class Contact(Case):
             min_tolerance = abs(1 - tau) - 0.01
             self.holds(*self.flat((tau, min_tolerance + 1e-4, w, w), duration=0.98))
             self.fails("too far apart", *self.flat((tau, min_tolerance - 1e-4, w, w), duration=0.98))
-            # Nothing is stated about the time from T to the witness. Everything until T is proven.
+            # The statement has no claim about the time between T and the witness. Everything until T is proven.
             self.fails("does not prove", *self.flat((tau, min_tolerance + 1e-4, w, w), duration=0.9901))
             self.fails("file ends", *self.flat((tau, min_tolerance + 1e-4, w, w), duration=0.98, steps=b""))
         for duration in (0.0, 0.98):
@@ -1711,11 +1712,11 @@ class Arithmetic(Case):
 
     def test_intervals(self):
         rng = random.Random(1)
-        def some():
+        def random_interval():
             a, b = (Fraction(rng.randint(-1000, 1000), rng.randint(1, 999)) for _ in range(2))
             return min(a, b), max(a, b)
         for _ in range(300):
-            (a, b), (c, d) = some(), some()
+            (a, b), (c, d) = random_interval(), random_interval()
             for x in (a, b, c, d):
                 lo, hi = so.fix(x)
                 self.assertTrue(lo <= x * so.ONE <= hi and hi - lo <= 1)
@@ -1734,16 +1735,16 @@ class Random(Case):
         """Returns random links and two bodies, both as inputs and as objects of the checker."""
         def vec(s): return tuple(rng.uniform(-s, s) for _ in range(3))
         links, bodies, files = random_links(rng, count, speed), [], []
-        exact, ends = self.exact_links(links), [rng.randint(0, count) for _ in range(2)]
+        checker_links, ends = self.exact_links(links), [rng.randint(0, count) for _ in range(2)]
         for end in ends:
             shift = vec(2)
             radii = [rng.choice((0.0, 0.0625, rng.uniform(0, 0.25))) * 2 * size for _ in range(9)]
             data = mesh([(*fadd(vec(size), shift), r) for r in radii],
                         [tuple(rng.sample(range(9), 3)) for _ in range(6)])
             tree = random_tree(rng, rng.sample(range(6), 6))
-            bodies.append(so.Body(so.Tree(*self.files(data, certificate(data, tree=tree))), exact[end], 0))
+            bodies.append(so.Body(so.Tree(*self.files(data, certificate(data, tree=tree))), checker_links[end], 0))
             files.append((data, tree))
-        return links, exact, ends, bodies, files
+        return links, checker_links, ends, bodies, files
 
     def corners(self, data, triangles):
         """Returns the corners of some triangles, in the frame of the link, with radii."""
@@ -1807,17 +1808,17 @@ class Random(Case):
         z = fsub(in_world(links, end, g, t), in_world(links, end, center(links, end), t))
         r = max(flength(fsub(y, g)) for *y, _ in corners) + max(radii)
         m = flength(fadd(slope, fcross(omega, z))) + (k + k_prime * flength(z)) / 2
-        return self.seen(links, frame, in_world(links, end, g, t), t), r + m
+        return self.point_in_frame(links, frame, in_world(links, end, g, t), t), r + m
 
-    def seen(self, links, frame, x, t):
+    def point_in_frame(self, links, frame, x, t):
         """Transforms a point of the world to the frame of a link, relative to its center."""
         x = fsub(x, in_world(links, frame, center(links, frame), t))
         return [fdot(x, direction(links, frame, e, t)) for e in UNIT3]
 
     def test_bound_is_below_samples_and_close(self):
-        rng, close = random.Random(7), 0
+        rng, tight_count = random.Random(7), 0
         for trial in range(120):
-            links, exact, ends, bodies, files = self.scene(rng)
+            links, checker_links, ends, bodies, files = self.scene(rng)
             frame = (0, *ends)[trial % 3]
             nodes = [rng.randrange(11) for _ in range(2)]
             corners = [self.nodes(file)[p] for file, p in zip(files, nodes)]
@@ -1828,48 +1829,48 @@ class Random(Case):
             n, span = [c / ONE for c in axis], (t0 / 2 ** 60, t1 / 2 ** 60)
             for body, end, c, node, side in zip(bodies, ends, corners, nodes, (-1, 1)):
                 plane = [(side * x << so.F - 50,) * 2 for x in axis], int(side * d * so.ONE)
-                proven = so.distance_bound(body, node, exact[frame], *middle_and_half(t0, t1), *plane) / so.ONE
+                proven = so.distance_bound(body, node, checker_links[frame], *middle_and_half(t0, t1), *plane) / so.ONE
                 least = least_distance(links, end, c, side, n, d, frame, *span, 16)
                 self.assertLessEqual(proven, least + 1e-9)
                 self.assertAlmostEqual(proven, self.readme(links, end, c, side, n, d, frame, *span), 9)
                 if k == 8:
                     self.assertLess(least - proven, 0.01)
-                    close += 1
-        self.assertGreater(close, 10)
+                    tight_count += 1
+        self.assertGreater(tight_count, 10)
 
     def test_ball_is_around_samples_and_close(self):
-        rng, close = random.Random(8), 0
+        rng, tight_count = random.Random(8), 0
         for trial in range(120):
-            links, exact, ends, bodies, files = self.scene(rng)
+            links, checker_links, ends, bodies, files = self.scene(rng)
             (body, other), (end, frame) = bodies, ends
-            node, others = rng.randrange(11), rng.randrange(11)
+            node, other_node = rng.randrange(11), rng.randrange(11)
             corners, k = self.nodes(files[0])[node], rng.randrange(9)
             i = rng.randrange(1 << k)
             t0, t1 = i << 60 - k, i + 1 << 60 - k
             span = t0 / 2 ** 60, t1 / 2 ** 60
             with unittest.mock.patch.object(so.Body, "is_beyond", autospec=True) as is_beyond_mock:
                 margin = rng.choice((0, rng.randrange(so.ONE)))
-                so.is_beyond_ball(body, node, other, others, *middle_and_half(t0, t1), margin)
-            (record_bound, where_to, point, limit), unit = is_beyond_mock.call_args.args, so.ONE << other.bits
-            self.assertTrue(record_bound is other and where_to == others and all(lo <= hi for lo, hi in point))
+                so.is_beyond_ball(body, node, other, other_node, *middle_and_half(t0, t1), margin)
+            (other_seen, other_node_seen, point, limit), unit = is_beyond_mock.call_args.args, so.ONE << other.bits
+            self.assertTrue(other_seen is other and other_node_seen == other_node and all(lo <= hi for lo, hi in point))
             self.assertLess(max(hi - lo for lo, hi in point) / unit, 1e-12)
             point, limit = [lo / unit for lo, _ in point], limit / unit - margin / so.ONE
-            expected, most = self.readme_ball(links, end, corners, frame, *span)
+            expected, max_margin = self.readme_ball(links, end, corners, frame, *span)
             self.assertLess(flength(fsub(point, expected)), 1e-9)
-            self.assertAlmostEqual(limit, most, 9)
-            max_distance, centers = 0, 0
+            self.assertAlmostEqual(limit, max_margin, 9)
+            max_distance, max_center_distance = 0, 0
             for j in range(17):
                 t = span[0] + (span[1] - span[0]) * j / 16
                 for *y, ball in corners:
-                    x = self.seen(links, frame, in_world(links, end, y, t), t)
-                    centers = max(centers, flength(fsub(x, point)))
+                    x = self.point_in_frame(links, frame, in_world(links, end, y, t), t)
+                    max_center_distance = max(max_center_distance, flength(fsub(x, point)))
                     max_distance = max(max_distance, flength(fsub(x, point)) + ball)
             self.assertLessEqual(max_distance, limit + 1e-9)
             if k == 8 and len(corners) == 3:
                 # The ball adds the largest radius, while the farthest corner may have a smaller one.
-                self.assertLess(limit - centers - max(ball for *_, ball in corners), 0.02)
-                close += 1
-        self.assertGreater(close, 3)
+                self.assertLess(limit - max_center_distance - max(ball for *_, ball in corners), 0.02)
+                tight_count += 1
+        self.assertGreater(tight_count, 3)
 
     def test_is_beyond(self):
         """Compares the distances with the boxes of all triangles, at the least limits that one box does not exceed."""
@@ -1892,16 +1893,16 @@ class Random(Case):
                         self.assertEqual(body.is_beyond(node, [(x, x) for x in point], limit), expected)
                         counts[expected] += 1
                         # The point has an error of 1, so its nearest possible position counts.
-                        wide = body.is_beyond(node, [(x - 1, x + 1) for x in point], limit)
-                        self.assertEqual(wide, expected and wide)
+                        is_beyond_with_error = body.is_beyond(node, [(x - 1, x + 1) for x in point], limit)
+                        self.assertEqual(is_beyond_with_error, expected and is_beyond_with_error)
         self.assertGreater(min(counts), 50)
 
     def random_proofs(self, seed, trials, balls, fractions):
-        """Tests random splits and leaves, with margins near those that samples allow. Samples refute no accepted proof.
+        """Tests random splits and leaves. The margins are near the largest margins that the samples allow. Samples refute no accepted proof.
         The margins are these fractions of the margins that the samples allow. Returns counts by (is false, verdict)."""
         rng, counts = random.Random(seed), {}
         for trial in range(trials):
-            links, exact, ends, bodies, files = self.scene(rng, speed=0.5, size=0.25, count=4)
+            links, checker_links, ends, bodies, files = self.scene(rng, speed=0.5, size=0.25, count=4)
             if ends[0] == ends[1] == 0:
                 continue
             depth, found = rng.randrange(3), []
@@ -1933,12 +1934,12 @@ class Random(Case):
             made = steps([tree for _, tree in files], 0, 1 << 60, depth + 1)
             least = min(found)
             meshes = [x for data, tree in files for x in (data, certificate(data, tree=tree))]
-            for fraction, less in fractions:
-                margin = least * fraction - less
+            for fraction, decrement in fractions:
+                margin = least * fraction - decrement
                 if margin >= 0:
                     bodies = [(data, end) for (data, _), end in zip(files, ends)]
-                    whole = proof(links, bodies, [(0, 1, margin)], made, units=(-40, 0))
-                    (verdict, reason), = self.run_files(meshes, whole)
+                    proof_bytes = proof(links, bodies, [(0, 1, margin)], made, units=(-40, 0))
+                    (verdict, reason), = self.run_files(meshes, proof_bytes)
                     key = margin > least, verdict
                     counts[key] = counts.get(key, 0) + 1
                     self.assertTrue(verdict == "holds" or "does not prove" in reason or "too near" in reason, reason)
@@ -1991,10 +1992,10 @@ class Damage(Case):
         for i, (verdict, reason) in enumerate(self.run_files(files, *bad)):
             if i % 64 == 63:                        # the sign bit
                 self.assertIn("is negative", reason)
-        cert = files[1]
-        for i in range(0, len(cert)):
+        tree_certificate = files[1]
+        for i in range(0, len(tree_certificate)):
             for bit in (0, 7):
-                broken = cert[:i] + bytes([cert[i] ^ 1 << bit]) + cert[i + 1:]
+                broken = tree_certificate[:i] + bytes([tree_certificate[i] ^ 1 << bit]) + tree_certificate[i + 1:]
                 (verdict, reason), = self.run_files((a, broken, *files[2:]), good)
                 self.assertEqual(verdict, "broken", (i, reason))
 

@@ -106,7 +106,10 @@ fn check_witness(reader: &mut Reader<'_>, [unit, time]: [i64; 2], links: &Links,
         offset = sub(add(states[link].position, rotated(states[link].rotation, from_center)), offset);
         limit += radius - 3 * links.error_bound(length_bound(from_center)) as i64;
     }
-    reader.require(limit >= 0 && dot(offset, offset) <= product(limit, limit), "the points of the witness are too far apart")
+    reader.require(
+        limit >= 0 && dot(offset, offset) <= product(limit, limit),
+        "the points of the witness are too max_length apart",
+    )
 }
 
 #[cfg(test)]
@@ -164,9 +167,9 @@ mod tests {
     #[test]
     fn chains_that_are_too_long_are_unverifiable() {
         let body = triangle();
-        let far = (1u64 << LENGTH_BITS) as f64;
+        let max_length = (1u64 << LENGTH_BITS) as f64;
         let verdict = |count: usize| {
-            let mut proof = proof(&alloc::vec![far; count], ([0, count as u32], &body));
+            let mut proof = proof(&alloc::vec![max_length; count], ([0, count as u32], &body));
             proof.extend(leaf(1 << 54));
             check(core::slice::from_ref(&body), &proof)
         };
@@ -179,11 +182,11 @@ mod tests {
     #[test]
     fn sums_of_lengths_that_overflow_are_unverifiable() {
         let body = triangle();
-        let far = (1u64 << LENGTH_BITS) as f64;
+        let max_length = (1u64 << LENGTH_BITS) as f64;
         for [start, rate] in [[256.0, 256.0], [256.0, -256.0], [-256.0, 0.0], [0.0, 256.0]] {
-            let long = [0.0, far, far, far, 0.0, 0.0, 0.0, start, rate];
+            let long_link = [0.0, max_length, max_length, max_length, 0.0, 0.0, 0.0, start, rate];
             for links in [[0, 0], [1, 1], [0, 1]] {
-                let mut proof = proof_of_moving(&[long], (links, &body));
+                let mut proof = proof_of_moving(&[long_link], (links, &body));
                 proof.extend(leaf(0));
                 let verdict = check(core::slice::from_ref(&body), &proof);
                 assert_eq!(verdict, Err(Stop::Unverifiable("the link angles or link offsets are too large")));

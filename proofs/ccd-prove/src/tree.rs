@@ -80,8 +80,7 @@ impl Tree {
         Some([node + 1, self.nodes[node].second_child?])
     }
 
-    /// Returns the least projection of a node onto a direction: of each corner, its dot product with the direction minus its
-    /// radius.
+    /// Returns the least projection of a node onto a direction: the minimum over its corners of the dot product minus the radius.
     pub(crate) fn min_projection(&self, node: NodeIndex, direction: DVec3) -> f64 {
         let infinite = (f64::INFINITY, 0);
         self.min_corner_below(node, direction.extend(-1.0), infinite)
