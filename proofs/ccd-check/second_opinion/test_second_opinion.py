@@ -1196,7 +1196,7 @@ class Balls(Case):
                 self.holds(files, make(b"\0" + b"".join(steps), 0.5))
                 reason = f"the ball around {'AB'[ball[0] - 6]} of"
                 self.fails(reason, files, make(b"\0" + b"".join(reversed(steps)), 0.5))
-        # The same with B split, by step 1.
+        # The same with exchanged bodies: step 1 splits B.
         a, b = b, a
         files = a, certificate(a), b, certificate(b, (0, 1))
         plane = leaf(along(-math.sqrt(0.5), -math.sqrt(0.5), 0))

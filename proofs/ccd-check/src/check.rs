@@ -106,10 +106,7 @@ fn check_witness(reader: &mut Reader<'_>, [unit, time]: [i64; 2], links: &Links,
         offset = sub(add(states[link].position, rotated(states[link].rotation, from_center)), offset);
         limit += radius - 3 * links.error_bound(length_bound(from_center)) as i64;
     }
-    reader.require(
-        limit >= 0 && dot(offset, offset) <= product(limit, limit),
-        "the points of the witness are too max_length apart",
-    )
+    reader.require(limit >= 0 && dot(offset, offset) <= product(limit, limit), "the points of the witness are too far apart")
 }
 
 #[cfg(test)]

@@ -79,7 +79,7 @@ fn each_kind_of_forgery_is_rejected() {
     // One of the meshes is missing.
     assert_eq!(
         reason(ccd_check::check(&bodies[..1], &proof.bytes)),
-        "a mesh of the statement is missing, or was read in other_triangle unit"
+        "a mesh of the statement is missing, or was read in another unit"
     );
 }
 
@@ -149,7 +149,7 @@ fn a_tree_that_omits_a_triangle_or_belongs_to_another_mesh_is_rejected() {
     // A coordinate of a vertex changes by one unit in the last place.
     let mut changed_mesh = body.mesh().to_vec();
     changed_mesh[8] ^= 1;
-    let other = "the certificate belongs to other_triangle mesh";
+    let other = "the certificate belongs to another mesh";
     assert_eq!(read(&changed_mesh, body.certificate()), other);
     let shortened = &body.certificate()[..body.certificate().len() - 1];
     assert_eq!(read(body.mesh(), shortened), "the file ends too early");
