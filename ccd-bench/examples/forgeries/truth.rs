@@ -3,7 +3,7 @@
 use crate::files::Files;
 use ccd_core::glam::{DQuat, DVec3, DVec4};
 use ccd_core::order::{greater, lesser};
-use ccd_prove::{StatedLink, StatedWitness, Statement};
+use ccd_prove::{StatementLink, StatementWitness, Statement};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::distance;
 use parry3d_f64::shape::Triangle;
@@ -60,7 +60,7 @@ impl Scene {
     }
 
     fn witness_is_near(&self) -> bool {
-        let Some(StatedWitness {
+        let Some(StatementWitness {
             pair,
             time,
             tolerance,
@@ -97,19 +97,19 @@ impl Scene {
             if link == 0 {
                 return Some(triangles);
             }
-            let stated = self.statement.links.get(link - 1)?;
+            let statement_link = self.statement.links.get(link - 1)?;
             for corner in triangles.iter_mut().flatten() {
-                let moved = on_parent(stated, corner.truncate(), time);
+                let moved = on_parent(statement_link, corner.truncate(), time);
                 *corner = moved.extend(corner.w);
             }
-            link = stated.parent as usize;
+            link = statement_link.parent as usize;
         }
         None
     }
 }
 
 /// Transforms a point of a link to the frame of the parent.
-fn on_parent(link: &StatedLink, point: DVec3, time: f64) -> DVec3 {
+fn on_parent(link: &StatementLink, point: DVec3, time: f64) -> DVec3 {
     let [position, center, velocity, axis] =
         [link.position, link.center, link.velocity, link.axis].map(DVec3::from_array);
     let start = DQuat::from_array(link.quaternion).normalize();

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks forged proofs with second_opinion.py, and compares its verdicts with those of ccd-check in the same file.
+"""Checks forged proofs with second_opinion.py, and compares its verdicts with the verdicts of ccd-check in the file.
 
 `cargo run --release -p ccd-bench --example forgeries -- FILE` writes the file.
 """
@@ -9,8 +9,9 @@ import second_opinion as so
 COLUMNS = "forged", "both refuse", "both hold", "only ccd-check holds", "only second_opinion holds", "false ones hold"
 
 
-def parts(file):
-    """Yields each record: the kind, the verdict and the truth, the proof, and both meshes with their trees."""
+def read_records(file):
+    """Yields each record: the kind of forgery, the verdict of ccd-check and whether the statement is true, the proof,
+    and both meshes with their trees."""
     while head := file.read(4):
         record = []
         for _ in range(7):
@@ -31,7 +32,7 @@ def verdict(folder, proof, meshes):
         for k, (mesh, tree) in enumerate(meshes):
             if hashlib.sha256(mesh).digest() == digest:
                 return so.Tree(write(f"{k}.mesh", mesh), write(f"{k}.body", tree))
-        raise so.Fails("broken", "the mesh is not given")
+        raise so.Fails("broken", "the mesh is missing")
 
     try:
         # ccd-check reads all meshes, including those that the proof does not use.
@@ -53,15 +54,18 @@ def main():
     k, n = map(int, arguments.fraction.split("/"))
     counts = collections.defaultdict(lambda: [0] * len(COLUMNS))
     with open(arguments.file, "rb") as file, tempfile.TemporaryDirectory() as folder:
-        for number, (kind, said, proof, a, tree_a, b, tree_b) in enumerate(parts(file)):
+        for number, (kind, verdict_and_truth, proof, a, tree_a, b, tree_b) in enumerate(read_records(file)):
             if number % n != k:
                 continue
-            first, is_true = said[:1] == b"h", said[1]
-            second = verdict(folder, proof, [(a, tree_a), (b, tree_b)]) == "holds"
+            ccd_check_holds, is_true = verdict_and_truth[:1] == b"h", verdict_and_truth[1]
+            second_opinion_holds = verdict(folder, proof, [(a, tree_a), (b, tree_b)]) == "holds"
             row = counts[kind.decode()]
             row[0] += 1
-            row[1 + (second and first) + (2 if first > second else 3 if second > first else 0)] += 1
-            row[5] += second and not is_true
+            if ccd_check_holds == second_opinion_holds:
+                row[1 + ccd_check_holds] += 1
+            else:
+                row[3 + second_opinion_holds] += 1
+            row[5] += second_opinion_holds and not is_true
     print("kind", *COLUMNS, sep=";")
     for kind, row in counts.items():
         print(kind, *row, sep=";")

@@ -13,7 +13,7 @@ UNIT3 = (1, 0, 0), (0, 1, 0), (0, 0, 1)
 TICKS = (-40, 60)   # units for which times are integers: ticks of 2^-60 of 2^60
 WHOLE = 1 << 55   # the scale of weights
 ZERO = 0, 0, 0
-AUTO = -0x5eed0ff5   # an offset that Case.fit replaces by the middle between the heights of the parts
+AUTO = -0x5eed0ff5   # an offset that Case.fit replaces by the middle between the projections of the nodes
 # ---- files ----
 def minus(axis): return tuple(-c for c in axis)
 
@@ -29,7 +29,7 @@ def points(*vertices):
     return mesh(vertices, [(i, i, i) for i in range(len(vertices))])
 
 
-def thick(mesh_bytes, *radii):
+def with_radii(mesh_bytes, *radii):
     """Returns the mesh with other radii: one for each vertex, or one for all."""
     count, = struct.unpack_from("<I", mesh_bytes)
     out = bytearray(mesh_bytes)
@@ -39,22 +39,22 @@ def thick(mesh_bytes, *radii):
 
 
 def balanced(order):
-    """Returns the tree of this order whose first part of n triangles has n // 2. A tree is the index of a triangle, or
-    a pair of trees."""
+    """Returns a balanced tree: the first child of a node with n triangles has n // 2. The triangles have this order. A
+    tree is the index of a triangle, or a pair of trees."""
     order = list(order)
     half = len(order) // 2
     return (balanced(order[:half]), balanced(order[half:])) if half else order[0]
 
 
-def leaning(n, to):
-    """Returns the numbers of a tree whose first parts (to = 0), or second parts (to = 1), are single triangles."""
+def one_sided_numbers(n, to):
+    """Returns the numbers of a tree whose first (to = 0) or second (to = 1) children are single triangles."""
     if to == 0:
         return [x for i in range(n - 1) for x in (1, i)] + [n - 1]
     return [*range(n - 1, 0, -1), *range(n)]
 
 
 def random_tree(rng, order):
-    """Returns a random tree of this order."""
+    """Returns a random tree whose triangles have this order."""
     if len(order) == 1:
         return order[0]
     first = rng.randrange(1, len(order))
@@ -62,63 +62,63 @@ def random_tree(rng, order):
 
 
 def triangles_of(tree):
-    """Returns the triangles of each part, in preorder."""
+    """Returns the triangles of each node, in preorder."""
     if isinstance(tree, int):
         return [[tree]]
     first, second = map(triangles_of, tree)
     return [first[0] + second[0], *first, *second]
 
 
-def preorder(tree):
-    """Returns the numbers of the parts in a certificate."""
+def numbers_in_preorder(tree):
+    """Returns the numbers of the nodes in a certificate."""
     if isinstance(tree, int):
         return [tree]
     first, second = tree
-    return [len(triangles_of(first)[0]), *preorder(first), *preorder(second)]
+    return [len(triangles_of(first)[0]), *numbers_in_preorder(first), *numbers_in_preorder(second)]
 
 
 def certificate(mesh_bytes, order=None, tree=None, numbers=None):
-    """Returns a certificate: of a balanced tree of an order, of a tree, or with any numbers, valid or not."""
+    """Returns the certificate of a tree, of a balanced tree with this order, or with any numbers, valid or not."""
     if numbers is None:
         count, = struct.unpack_from("<I", mesh_bytes, 4)
-        numbers = preorder(balanced(range(count) if order is None else order) if tree is None else tree)
+        numbers = numbers_in_preorder(balanced(range(count) if order is None else order) if tree is None else tree)
     return b"CCDBODY1" + hashlib.sha256(mesh_bytes).digest() + struct.pack(f"<{len(numbers)}I", *numbers)
 
 
 Link = collections.namedtuple("Link", "on p q c axes v a alpha beta")
 
 
-def moves(v=ZERO, a=ZERO, alpha=0.0, beta=0.0, axes=0, p=ZERO, q=(0, 0, 0, 1), c=ZERO, on=0):
+def moving_link(v=ZERO, a=ZERO, alpha=0.0, beta=0.0, axes=0, p=ZERO, q=(0, 0, 0, 1), c=ZERO, on=0):
     return Link(on, p, q, c, axes, v, a, alpha, beta)
 
 
-def free(p=ZERO, q=(0, 0, 0, 1), v=ZERO, w=ZERO, c=ZERO, on=0): return moves(v, w, 0.0, 1.0, 0, p, q, c, on)
-def turns(a=(0, 0, 1), alpha=0.0, beta=0.0, p=ZERO, q=(0, 0, 0, 1), on=0):
-    return moves(ZERO, a, alpha, beta, 1, p, q, ZERO, on)
+def free(p=ZERO, q=(0, 0, 0, 1), v=ZERO, w=ZERO, c=ZERO, on=0): return moving_link(v, w, 0.0, 1.0, 0, p, q, c, on)
+def revolute(a=(0, 0, 1), alpha=0.0, beta=0.0, p=ZERO, q=(0, 0, 0, 1), on=0):
+    return moving_link(ZERO, a, alpha, beta, 1, p, q, ZERO, on)
 
 
-def slides(v=(0, 0, 1), alpha=0.0, beta=0.0, p=ZERO, q=(0, 0, 0, 1), on=0):
-    return moves(v, ZERO, alpha, beta, 1, p, q, ZERO, on)
+def prismatic(v=(0, 0, 1), alpha=0.0, beta=0.0, p=ZERO, q=(0, 0, 0, 1), on=0):
+    return moving_link(v, ZERO, alpha, beta, 1, p, q, ZERO, on)
 
 
 def link_bytes(x): return struct.pack("<I10dI8d", x.on, *x.p, *x.q, *x.c, x.axes, *x.v, *x.a, x.alpha, x.beta)
-def seven(x): return x.to_bytes(7, "little", signed=True)
-def leaf(axis, frame=0, d=AUTO): return bytes([3 + frame]) + b"".join(map(seven, (*axis, d)))
+def int56(x): return x.to_bytes(7, "little", signed=True)
+def leaf(axis, frame=0, d=AUTO): return bytes([3 + frame]) + b"".join(map(int56, (*axis, d)))
 def along(*v): return tuple(math.trunc(c * (1 - 1e-9) * ONE) for c in v)   # slightly less than 1 long
 AROUND_A, AROUND_B = b"\6", b"\7"
 def split_time(first, second): return b"\2" + first + second
 
 
-def halves(depth, make, t0=0.0, t1=1.0):
-    """Returns the steps that split the time 2^depth times into equal parts. make(middle) returns the leaf of a part."""
+def split_evenly(depth, make, t0=0.0, t1=1.0):
+    """Returns steps that split the time into 2^depth equal intervals. make(middle) returns the leaf of an interval."""
     if depth == 0:
         return make((t0 + t1) / 2)
     m = (t0 + t1) / 2
-    return split_time(halves(depth - 1, make, t0, m), halves(depth - 1, make, m, t1))
+    return split_time(split_evenly(depth - 1, make, t0, m), split_evenly(depth - 1, make, m, t1))
 
 
 def until(t, first, second, t0=0.0, t1=1.0):
-    """Returns the steps with one leaf until t and another one after it, and the fewest splits of time."""
+    """Returns the steps with the leaf `first` until t and the leaf `second` after t, with the fewest splits of time."""
     if not t0 < t < t1:
         return first if t1 <= t else second
     m = (t0 + t1) / 2
@@ -169,7 +169,7 @@ def flength(v): return math.sqrt(fdot(v, v))
 
 
 def turn_by(a, v):
-    """Returns exp([a]x) v, from the parts of v along and across a."""
+    """Returns exp([a]x) v, from the components of v along and across a."""
     angle = flength(a)
     if angle == 0:
         return list(v)
@@ -186,43 +186,44 @@ def rotate(q, v):
     return fscale(1 / (fdot(u, u) + w * w), r)
 
 
-def up(x, y, t):
+def to_parent(x, y, t):
     """Transforms a point from the frame of a link to that of its parent, by the formula of the README."""
     s = x.alpha + t * x.beta
     v, a = (rotate(x.q, u) if x.axes else u for u in (x.v, x.a))
     return fadd(x.p, rotate(x.q, x.c), fscale(s, v), turn_by(fscale(s, a), rotate(x.q, fsub(y, x.c))))
 
 
-def where(links, i, y, t):
+def in_world(links, i, y, t):
     while i:
-        y, i = up(links[i - 1], y, t), links[i - 1].on
+        y, i = to_parent(links[i - 1], y, t), links[i - 1].on
     return y
 
 
-def direction(links, i, u, t): return fsub(where(links, i, u, t), where(links, i, ZERO, t))
+def direction(links, i, u, t): return fsub(in_world(links, i, u, t), in_world(links, i, ZERO, t))
 
 
 def axis_at(links, frame, n, middle, t):
-    """Returns the direction at time t of an axis that turns with a link, and is n in the world at the middle."""
+    """Returns the direction at time t of an axis that rotates with a link. At the middle of the interval it is n."""
     return fadd(*[fscale(fdot(n, direction(links, frame, e, middle)), direction(links, frame, e, t)) for e in UNIT3])
 
 
 def center(links, i): return links[i - 1].c if i else ZERO
 
 
-def least_height(links, end, corners, side, n, d, frame, t0, t1, samples):
-    """Returns the least sampled height of the balls above the plane, or below it if the side is -1."""
+def least_distance(links, end, corners, side, n, d, frame, t0, t1, samples):
+    """Returns the least sampled signed distance of the balls from the plane. If the side is -1,
+    the distance is positive below the plane."""
     least = math.inf
     for i in range(samples + 1):
         t = t0 + (t1 - t0) * i / samples
-        ns, origin = axis_at(links, frame, n, (t0 + t1) / 2, t), where(links, frame, center(links, frame), t)
+        ns, origin = axis_at(links, frame, n, (t0 + t1) / 2, t), in_world(links, frame, center(links, frame), t)
         w = [fdot(ns, direction(links, end, e, t)) for e in UNIT3]
-        start = fdot(ns, fsub(where(links, end, (0, 0, 0), t), origin)) - d
+        start = fdot(ns, fsub(in_world(links, end, (0, 0, 0), t), origin)) - d
         least = min(least, min(side * (start + fdot(w, y)) - flength(n) * ball for *y, ball in corners))
     return least
 
 
-def stretch(t0, t1):
+def middle_and_half(t0, t1):
     """Returns the middle and the half-length of an interval of ticks, as the checker computes them."""
     middle = (t0 + t1) // 2
     return Fraction(middle, 1 << 60), (t1 - middle << so.F - 60,) * 2
@@ -239,12 +240,12 @@ def random_link(rng, on, speed=1.0):
         speed = 0
     alpha, beta = rng.uniform(-2, 2), rng.uniform(-2, 2) * speed
     if kind == 3:
-        return moves(vec(1), vec(1), alpha, beta, rng.randrange(2), p, q, vec(0.5), on)
-    return (turns, slides)[kind - 1](vec(1), alpha, beta, p, q, on)
+        return moving_link(vec(1), vec(1), alpha, beta, rng.randrange(2), p, q, vec(0.5), on)
+    return (revolute, prismatic)[kind - 1](vec(1), alpha, beta, p, q, on)
 
 
 def random_links(rng, count, speed=1.0):
-    """Returns random links in a tree. For half of them the parent is the link before."""
+    """Returns random links in a tree. For half of them the parent is the previous link."""
     return [random_link(rng, i if rng.random() < 0.5 else rng.randint(0, i), speed) for i in range(count)]
 # ---- tests ----
 class Case(unittest.TestCase):
@@ -258,31 +259,31 @@ class Case(unittest.TestCase):
         return paths
 
     def fit(self, meshes, made):
-        """Returns the proof with the best offset in place of each AUTO. The heights come from a patched checker."""
-        if seven(AUTO) not in made:
+        """Replaces each AUTO in a proof by the best offset. A patched checker returns the signed distances for it."""
+        if int56(AUTO) not in made:
             return made
-        real, heights, found = so.height, [], []
-        def told(*call):
+        original, bounds, found = so.distance_bound, [], []
+        def record_bound(*call):
             d = call[-1] >> so.F
             if abs(d) != -AUTO:
-                return real(*call)
-            heights.append(real(*call[:-1], 0))
+                return original(*call)
+            bounds.append(original(*call[:-1], 0))
             if d < 0:                   # the plane of B, as that of A comes before it
-                below, above = heights[-2:]
+                below, above = bounds[-2:]
                 found.append(round(Fraction(above - below, 2 << so.F)))
             return 1 << 4096
-        so.height = told
+        so.distance_bound = record_bound
         try:
             paths = self.files(*meshes, made)
-            self.checked(paths[:-1], paths[-1:])
+            self.run_checker(paths[:-1], paths[-1:])
         finally:
-            so.height = real
+            so.distance_bound = original
         limit = (1 << 55) - 1
         for d in found:
-            made = made.replace(seven(AUTO), seven(max(-limit, min(limit, d))), 1)
+            made = made.replace(int56(AUTO), int56(max(-limit, min(limit, d))), 1)
         return made
 
-    def checked(self, meshes, proofs):
+    def run_checker(self, meshes, proofs):
         out, options = io.StringIO(), []
         for i in range(0, len(meshes), 2):
             options += ["--mesh", *meshes[i:i + 2]]
@@ -291,9 +292,9 @@ class Case(unittest.TestCase):
         return status, [line.split(": ", 2)[1:] for line in out.getvalue().splitlines()]
 
     def run_files(self, meshes, *proofs):
-        """Returns the verdicts and reasons that the command prints. `meshes` are mesh, certificate, and so on."""
+        """Returns the verdicts and reasons that the command prints. `meshes` lists each mesh before its certificate."""
         paths = self.files(*meshes, *(self.fit(meshes, made) for made in proofs))
-        status, lines = self.checked(paths[:len(meshes)], paths[len(meshes):])
+        status, lines = self.run_checker(paths[:len(meshes)], paths[len(meshes):])
         self.assertEqual(len(lines), len(proofs))
         self.assertEqual(status, 0 if all(v == "holds" for v, _ in lines) else 1)
         return lines
@@ -308,7 +309,7 @@ class Case(unittest.TestCase):
             self.assertIn(reason, line[1])
 
     def exact_links(self, links):
-        """Returns the links as the checker reads them, with units of 1."""
+        """Returns the links as the checker reads them. Both units are 1."""
         reader, out = so.Reader(*self.files(b"".join(map(link_bytes, links)))), [so.Link()]
         for _ in links:
             out.append(so.Link(reader.one_of(out, "link")).read(reader, Fraction(1), Fraction(1)))
@@ -331,14 +332,14 @@ class Free(Case):
 
     def test_radii_count(self):
         for radii in ((0.25, 0.25), (0.5, 0.0), (0.0, 0.5), (0.5, 0.5)):
-            files, make = self.thick_pair(radii)
+            files, make = self.rounded_pair(radii)
             if sum(radii) < 1:
                 self.holds(files, make(leaf(Z), margin=0.4999))
             self.fails("does not prove", files, make(leaf(Z), margin=0.5 if sum(radii) < 1 else 0.0))
 
-    def thick_pair(self, radii, la=free(), lb=free(p=(0, 0, 1))):
+    def rounded_pair(self, radii, la=free(), lb=free(p=(0, 0, 1))):
         """Returns the files of two triangles with these radii, and a function that makes proofs of them."""
-        a, b = (thick(FLAT, r) for r in radii)
+        a, b = (with_radii(FLAT, r) for r in radii)
         return (a, certificate(a), b, certificate(b)), lambda steps, **more: two(a, b, la, lb, steps, **more)
 
     def test_each_radius_counts(self):
@@ -351,10 +352,10 @@ class Free(Case):
                 def make(margin): return two(FLAT, b, free(), free((0, 0, p), q), leaf(axis), margin)
                 self.holds(files, make(math.nextafter(1 + least, 0)))
                 self.fails("does not prove", files, make(1.0 + least))
-        # A motion lowers the gap as for flat triangles: by rate / 2, and by half of the square of half of the turn.
+        # A motion lowers the gap as for flat triangles: by rate / 2, and by half of the square of half of the angle.
         for rate in (0.0, 0.5):
             lb = free(p=(0, 0, 1), w=(0, 0, rate), v=(0, 0, -rate / 2))
-            files, make = self.thick_pair((0.125, 0.25), lb=lb)
+            files, make = self.rounded_pair((0.125, 0.25), lb=lb)
             self.holds(files, make(leaf(Z), margin=0.6249 - rate / 2 - rate ** 2 / 8))
             self.fails("does not prove", files, make(leaf(Z), margin=0.6251 - rate / 2 - rate ** 2 / 8))
 
@@ -373,13 +374,13 @@ class Free(Case):
         half = 1 << 39                              # 1/2, in units of 2^-40
         for frame in (0, 1, 2):
             below = half - (frame == 2) * 2 * half   # relative to A or the world, or to B
-            for d, most in ((0, 1.0), (half // 2, 0.5), (-half // 2, 0.5), (half - 1, 2.0 ** -39), (half, 0.0),
+            for d, max_margin in ((0, 1.0), (half // 2, 0.5), (-half // 2, 0.5), (half - 1, 2.0 ** -39), (half, 0.0),
                             (1 - half, 2.0 ** -39), (-half, 0.0), (2 * half, 0.0), (-8 * half, 0.0),
                             (2 ** 55 - 1 - half, 0.0), (half - 2 ** 55, 0.0)):
                 step = leaf(Z, frame, below + d)
-                if most > 0:
-                    self.holds(self.M, self.flat(step, margin=math.nextafter(most, 0)))
-                self.fails("does not prove", self.M, self.flat(step, margin=most))
+                if max_margin > 0:
+                    self.holds(self.M, self.flat(step, margin=math.nextafter(max_margin, 0)))
+                self.fails("does not prove", self.M, self.flat(step, margin=max_margin))
 
     def test_offset_is_from_the_center(self):
         # A and B are 10 and 11 above the origin, with centers elsewhere.
@@ -389,7 +390,7 @@ class Free(Case):
                 return self.flat(leaf(Z, frame, int((d - origin) * 2 ** 40)), la, lb, margin=0.75)
             self.holds(self.M, make(10.5), make(10.4), make(10.6))
             self.fails("does not prove", self.M, make(10.3), make(10.7), make(0), make(-10.5))
-        # The plane moves with the center of a body that does not turn.
+        # The plane moves with the center of a body that does not rotate.
         la, lb = free(v=(0, 0, 9)), free(p=(0, 0, 1), v=(0, 0, 9))
         for frame, d in ((1, 1 << 39), (2, -1 << 39)):
             self.holds(self.M, self.flat(leaf(Z, frame, d), la, lb, margin=0.99))
@@ -433,9 +434,9 @@ class Free(Case):
         # An interval can be split if it has at least two ticks.
         once = split_time(leaf(Z), leaf(Z))
         left, right = split_time(once, leaf(Z)), split_time(leaf(Z), once)
-        all_made = [self.flat(steps, units=TICKS, duration=duration)
+        proofs = [self.flat(steps, units=TICKS, duration=duration)
                     for duration in (0.0, 1.5, 2.0, 3.5) for steps in (leaf(Z), once, left, right)]
-        for made, can in zip(all_made, (1, 0, 0, 0, 1, 1, 0, 0, 1, 1, 0, 1, 1, 1, 1, 1)):
+        for made, can in zip(proofs, (1, 0, 0, 0, 1, 1, 0, 0, 1, 1, 0, 1, 1, 1, 1, 1)):
             if can:
                 self.holds(self.M, made)
             else:
@@ -445,9 +446,9 @@ class Free(Case):
         for duration, middle in ((2.0, 1), (3.0, 1), (4.0, 2), (5.0, 2), (8.0, 4)):
             for above, beside in ((middle + 0.5, middle - 1.5), (middle - 0.5, middle - 1.5),
                                   (middle + 0.5, middle + 0.5)):
-                slow = free(p=(1 - beside, 0, above / 4), v=(1, 0, -0.25))
+                link = free(p=(1 - beside, 0, above / 4), v=(1, 0, -0.25))
                 both, ticks = split_time(leaf(Z), leaf(X)), {"duration": duration - 0.5, "units": TICKS}
-                made = self.flat(both, lb=slow, margin=0.01, **ticks)
+                made = self.flat(both, lb=link, margin=0.01, **ticks)
                 if beside < middle < above:
                     self.holds(self.M, made)
                 else:
@@ -468,9 +469,9 @@ class Free(Case):
         for axis in ((0, 0, ONE + 1), (1, 0, ONE)):
             self.fails("does not prove", self.M, self.flat(leaf(axis, 0, half), lb=lb))
         # An oblique axis shows a smaller gap: 0.8 minus 0.6 of the extent along x.
-        bent = along(0.6, 0, 0.8)
-        self.holds(self.M, self.flat(leaf(bent), margin=0.19))
-        self.fails("does not prove", self.M, self.flat(leaf(bent), margin=0.21))
+        oblique = along(0.6, 0, 0.8)
+        self.holds(self.M, self.flat(leaf(oblique), margin=0.19))
+        self.fails("does not prove", self.M, self.flat(leaf(oblique), margin=0.21))
 
     def test_file(self):
         good = self.flat(leaf(Z))
@@ -483,14 +484,14 @@ class Free(Case):
             self.fails("no such step", self.M, self.flat(bytes([step])), self.flat(bytes([step]) + leaf(Z)[1:]))
         for count in (2, 3, 256, 1 << 31, (1 << 32) - 1):
             self.fails("more than one", self.M, good[:HEADER] + struct.pack("<I", count) + good[HEADER + 4:])
-        self.fails("can not be split", self.M, self.flat(b"\0" + leaf(Z)), self.flat(b"\1" + leaf(Z)))
+        self.fails("cannot be split", self.M, self.flat(b"\0" + leaf(Z)), self.flat(b"\1" + leaf(Z)))
         self.fails("margin is negative", self.M, self.flat(leaf(Z), margin=-0.5))
         for bad, place in itertools.product((-0.5, -5e-324, math.nan, math.inf, -math.inf), range(3)):
-            a = thick(FLAT, *[bad if i == place else 0.5 for i in range(3)])
-            why, verdict = ("radius", "broken") if math.isfinite(bad) else ("not finite", "unverifiable")
+            a = with_radii(FLAT, *[bad if i == place else 0.5 for i in range(3)])
+            reason, verdict = ("radius", "broken") if math.isfinite(bad) else ("not finite", "unverifiable")
             made = two(a, FLAT, free(), free(p=(0, 0, 1)), leaf(Z))
-            self.fails(why, (a, certificate(a), *self.M), made, verdict=verdict)
-        minus_0 = thick(FLAT, -0.0)
+            self.fails(reason, (a, certificate(a), *self.M), made, verdict=verdict)
+        minus_0 = with_radii(FLAT, -0.0)
         self.holds((minus_0, certificate(minus_0)), two(minus_0, minus_0, free(), free(p=(0, 0, 1)), leaf(Z), 0.99))
         self.fails("time is negative", self.M, self.flat(leaf(Z), duration=-1.0))
 
@@ -505,55 +506,57 @@ class Free(Case):
         self.fails("no such body", self.M, make(pairs=((0, 2, 0.5),)), make(pairs=((2, 0, 0.5),)))
         self.fails("does not prove", self.M, make(pairs=((1, 0, 0.5),)), make(pairs=((0, 0, 0.0),)))
         for axes in (0, 1):
-            self.holds(self.M, make(links=(moves(axes=axes), moves(axes=axes, p=(0, 0, 1)))))
+            self.holds(self.M, make(links=(moving_link(axes=axes), moving_link(axes=axes, p=(0, 0, 1)))))
         for axes in (2, 3, 256, 1 << 16, 1 << 31, (1 << 32) - 1):
-            for at, links in (28, (moves(axes=axes), free(p=(0, 0, 1)))), (28 + LINK, (free(), moves(axes=axes))):
+            changed = moving_link(axes=axes)
+            for at, links in (28, (changed, free(p=(0, 0, 1)))), (28 + LINK, (free(), changed)):
                 self.fails(f"byte {at + 84} ", self.M, make(links=links))
                 self.fails("no such axes", self.M, make(links=links))
-        deep = [turns(on=i) for i in range(199)]
+        deep = [revolute(on=i) for i in range(199)]
         self.holds(self.M, make(links=(*deep, free(p=(0, 0, 1))), bodies=((FLAT, 199), (FLAT, 200))))
-        self.fails("chain", self.M, make(links=(*deep, turns(on=199))), verdict="unverifiable")
+        self.fails("chain", self.M, make(links=(*deep, revolute(on=199))), verdict="unverifiable")
 
     def test_numbers(self):
         for bad in (math.nan, math.inf, -math.inf):
             for place, x in ((4, free((0, bad, 1))), (28, free(q=(0, bad, 0, 1))), (60, free(c=(0, bad, 0))),
-                             (88, free(v=(0, bad, 0))), (112, free(w=(0, bad, 0))), (136, moves(alpha=bad)),
-                             (136, moves(beta=bad))):
+                             (88, free(v=(0, bad, 0))), (112, free(w=(0, bad, 0))), (136, moving_link(alpha=bad)),
+                             (136, moving_link(beta=bad))):
                 self.fails(f"byte {28 + LINK + place} ", self.M, self.flat(leaf(Z), lb=x), verdict="unverifiable")
         p = 0, 0, 1
-        for link in (free(p, w=(0, 0, 1000)), turns(p=p, beta=1000.0), turns(p=p, alpha=-1000.0)):
-            self.fails("turns too far", self.M, self.flat(leaf(Z), lb=link), verdict="unverifiable")
-        self.holds(self.M, self.flat(leaf(Z), lb=turns(p=(0, 0, 1), alpha=500.0)))
+        for link in (free(p, w=(0, 0, 1000)), revolute(p=p, beta=1000.0), revolute(p=p, alpha=-1000.0)):
+            self.fails("rotates too far", self.M, self.flat(leaf(Z), lb=link), verdict="unverifiable")
+        self.holds(self.M, self.flat(leaf(Z), lb=revolute(p=(0, 0, 1), alpha=500.0)))
         spin = free(p=(0, 0, 1), w=(0, 0, 250))
         self.fails("does not prove", self.M, self.flat(leaf(Z), lb=spin))   # true, but the interval is too long
-        self.holds(self.M, self.flat(halves(8, lambda _: leaf(Z)), lb=spin))
+        self.holds(self.M, self.flat(split_evenly(8, lambda _: leaf(Z)), lb=spin))
         for q in ((0, 0, 0, 0), (0, 0, 0, 1.01), (0, 0, 0, 1 - 2.0 ** -20)):
-            self.fails("1 long", self.M, *(self.flat(leaf(Z), lb=f(p=(0, 0, 1), q=q)) for f in (free, turns, slides)))
+            self.fails("1 long", self.M, *(self.flat(leaf(Z), lb=kind(p=(0, 0, 1), q=q))
+                                           for kind in (free, revolute, prismatic)))
         self.holds(self.M, self.flat(leaf(Z), lb=free(p=(0, 0, 1), q=(0, 0, 0, 1 - 2.0 ** -21))))
         # Very large and very small numbers are exact, too.
-        far = free(p=(0, 0, 1e300))
-        self.holds(self.M, self.flat(leaf(Z), lb=far, margin=9.9e299, units=(950, 0)))
-        ball = thick(FLAT, 1e300)
+        distance = free(p=(0, 0, 1e300))
+        self.holds(self.M, self.flat(leaf(Z), lb=distance, margin=9.9e299, units=(950, 0)))
+        ball = with_radii(FLAT, 1e300)
         self.holds((*self.M, ball, certificate(ball)), two(FLAT, ball, free(), free(p=(0, 0, 2e300)), leaf(Z), 9.9e299,
                                                            units=(950, 0)))
-        tiny = mesh([(0, 0, 5e-324), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-        tree = certificate(tiny)
-        self.holds((tiny, tree, *self.M), two(tiny, FLAT, free(), free(p=(0, 0, 1)), leaf(Z), margin=0.5))
+        tiny_mesh = mesh([(0, 0, 5e-324), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+        tree = certificate(tiny_mesh)
+        self.holds((tiny_mesh, tree, *self.M), two(tiny_mesh, FLAT, free(), free(p=(0, 0, 1)), leaf(Z), margin=0.5))
 
     def test_quaternion(self):
-        # A quarter turn about x rotates y to z, so the triangle reaches up to z = 1.
+        # A quarter rotate about x rotates y to z, so the triangle reaches up to z = 1.
         q = (math.sqrt(0.5), 0, 0, math.sqrt(0.5))
         above = free(p=(0, 0, 1.25))
         # With the center at y = 1, that corner stays at p + R0 c.
-        for up in (free(q=q), free(q=q, c=(0, 1, 0)), turns(q=q), slides(q=q)):
+        for up in (free(q=q), free(q=q, c=(0, 1, 0)), revolute(q=q), prismatic(q=q)):
             self.holds(self.M, self.flat(leaf(Z), la=up, lb=above, margin=0.2499))
             self.fails("does not prove", self.M, self.flat(leaf(Z), la=up, lb=above, margin=0.2501))
 
     def test_quaternion_not_quite_1_long(self):
-        # A is turned by half a turn about z, so its corner is at x = -1, whatever the length of the quaternion.
+        # A is turned by half a rotate about z, so its corner is at x = -1, whatever the length of the quaternion.
         e = 2.0 ** -22
         for z in (1 + e, 1 - e):
-            for kind in (free, turns, slides):
+            for kind in (free, revolute, prismatic):
                 def make(margin):
                     return self.flat(leaf(minus(X)), kind(q=(0, 0, z, 0)), free(p=(-3, 0, 0)), margin=margin)
                 self.holds(self.M, make(1 - e / 8))
@@ -568,32 +571,32 @@ class Joints(Case):
         q = (0, -math.sqrt(0.5), 0, math.sqrt(0.5))   # rotates x to z
         for a, alpha, beta in (((1, 0, 0), 1.0, -0.75), ((0.25, 0, 0), 4.0, -3.0), ((-1, 0, 0), -1.0, 0.75)):
             def make(margin, **more):
-                return two(FLAT, FLAT, free(), slides(a, alpha, beta, q=q), leaf(Z), margin, **more)
+                return two(FLAT, FLAT, free(), prismatic(a, alpha, beta, q=q), leaf(Z), margin, **more)
             # The rotated triangle reaches from z = 0 to z = 1 above its position.
             self.holds(self.M, make(0.2499))
             self.fails("does not prove", self.M, make(0.2501), make(0.2499, duration=1.1))
 
     def test_turning(self):
-        # A point at x = 1 turns about z, by angles from -0.5 to 0.5.
+        # A point at x = 1 rotates about z, by angles from -0.5 to 0.5.
         a = points((1, 0, 0))
         for axis, alpha, beta in (((0, 0, 1), -0.5, 1.0), ((0, 0, -0.5), 1.0, -2.0)):
             def make(margin, depth):
-                steps = halves(depth, lambda t: leaf(X))
-                return two(a, POINT, turns(axis, alpha, beta), free(p=(2, 0, 0)), steps, margin)
+                steps = split_evenly(depth, lambda t: leaf(X))
+                return two(a, POINT, revolute(axis, alpha, beta), free(p=(2, 0, 0)), steps, margin)
             files = (a, certificate(a), *self.M)
             self.holds(files, make(0.8, 0), make(0.99, 4))
             self.fails("does not prove", files, make(0.9, 0), make(1.001, 4))
-        def away(alpha, margin): return two(a, POINT, turns(alpha=alpha), free(p=(-2, 0, 0)), leaf(minus(X)), margin)
+        def away(alpha, margin): return two(a, POINT, revolute(alpha=alpha), free(p=(-2, 0, 0)), leaf(minus(X)), margin)
         for alpha in (math.pi, 2.9, -2.0):
             self.holds(files, away(alpha, 1.9999 + math.cos(alpha)))
             self.fails("does not prove", files, away(alpha, 2.0001 + math.cos(alpha)))
 
     def test_scara(self):
-        # Arms of length 1 turn about z by t and by -2 t, so the tip stays on y = 0. A plate above it is lifted.
-        links = [turns(beta=1.0), turns(beta=-2.0, p=(1, 0, 0), on=1), slides(beta=0.5, p=(1, 0, 0), on=2),
-                 slides((0, 0, 1), 0.0, 0.5, p=(0, 0, 1))]
+        # Arms of length 1 rotate about z by t and by -2 t, so the tip stays on y = 0. A plate above it is lifted.
+        links = [revolute(beta=1.0), revolute(beta=-2.0, p=(1, 0, 0), on=1), prismatic(beta=0.5, p=(1, 0, 0), on=2),
+                 prismatic((0, 0, 1), 0.0, 0.5, p=(0, 0, 1))]
         def make(margin, depth, axis=Z):
-            steps = halves(depth, lambda t: leaf(axis))
+            steps = split_evenly(depth, lambda t: leaf(axis))
             return proof(links, [(POINT, 3), (FLAT, 4)], [(0, 1, margin)], steps)
         # Both rise by 0.5, but the plane is static. In an interval it is 2^-8 below B at the start, and
         # 2^-8 above A at the end.
@@ -601,26 +604,26 @@ class Joints(Case):
         self.fails("does not prove", self.M, make(1.0001 - 2 ** -8, 7), make(0.999, 1), make(0.0, 7, Y))
         wall = mesh([(-9, 0.25, -9), (9, 0.25, -9), (0, 0.25, 9)], [(0, 1, 2)])
         def beside(margin, depth):
-            return proof(links, [(POINT, 3), (wall, 0)], [(0, 1, margin)], halves(depth, lambda t: leaf(Y)))
+            return proof(links, [(POINT, 3), (wall, 0)], [(0, 1, margin)], split_evenly(depth, lambda t: leaf(Y)))
         files = (wall, certificate(wall), *self.M)
         self.holds(files, beside(0.24, 6))
         self.fails("does not prove", files, beside(0.251, 6), beside(0.24, 1))
 
     def test_a_turning_base_carries_both(self):
-        # Each body is on its own link, on a base that turns by 6 radians. The bodies are static relative to each other.
-        for base in (turns(beta=6.0), free(w=(0, 0, 6.0)), turns((0, 0, 3.0), 1.0, 2.0)):
-            links = [base, free(on=1), free(p=(0, 0, 1), on=1), slides((1, 0, 0), -0.5, 1.0, p=(0.5, 0, 0), on=1)]
+        # Each body is on its own link, on a base that rotates by 6 radians. They are static relative to each other.
+        for base in (revolute(beta=6.0), free(w=(0, 0, 6.0)), revolute((0, 0, 3.0), 1.0, 2.0)):
+            links = [base, free(on=1), free(p=(0, 0, 1), on=1), prismatic((1, 0, 0), -0.5, 1.0, p=(0.5, 0, 0), on=1)]
             side = along(*direction(links, 1, (1, 0, 0), 0.5))
             def make(b, axis, frame, margin, depth=0):
                 return proof(links, [(POINT, 2), (POINT, b)], [(0, 1, margin)],
-                             halves(depth, lambda _: leaf(axis, frame)))
+                             split_evenly(depth, lambda _: leaf(axis, frame)))
             for frame in (1, 2):
                 self.holds(self.M, make(3, Z, frame, 0.999))
             self.fails("does not prove", self.M, make(3, Z, 0, 0.0))
             self.holds(self.M, make(3, Z, 0, 0.99, 6))
             for frame in (1, 2):   # the prismatic joint starts at 0, and moves to 1 along x of the base
                 self.fails("does not prove", self.M, make(4, side, frame, 0.001))
-            links[3] = slides((1, 0, 0), 0.0, 1.0, p=(0.5, 0, 0), on=1)
+            links[3] = prismatic((1, 0, 0), 0.0, 1.0, p=(0.5, 0, 0), on=1)
             for frame in (1, 2):
                 self.holds(self.M, make(4, side, frame, 0.499))
                 self.fails("does not prove", self.M, make(4, side, frame, 0.501), make(4, Y, frame, 0.1))
@@ -629,7 +632,7 @@ class Joints(Case):
     def test_bodies_on_one_link(self):
         a, b = points((0, 0, 0)), points((1, 2, 3))
         files = a, certificate(a), b, certificate(b)
-        links = [turns(beta=3.0), free(c=(5, 5, 5), w=(1, 2, 1), v=(9, 9, 9), on=1)]
+        links = [revolute(beta=3.0), free(c=(5, 5, 5), w=(1, 2, 1), v=(9, 9, 9), on=1)]
         for on, frames in ((0, (0, 1, 2)), (2, (1, 2))):
             axis = along(*direction(links, on, (0, 0, 1), 0.5))
             def make(margin, frame):
@@ -644,17 +647,17 @@ class Joints(Case):
         q = 0, 0, math.sqrt(0.5), math.sqrt(0.5)
         for axes, n, other, end in ((0, X, Y, (2, 0, 0)), (1, Y, X, (0, 2, 0))):
             for scale in (1.0, -0.25):
-                x = moves((scale, 0, 0), ZERO, 0.5 / scale, 1 / scale, axes, q=q)
+                x = moving_link((scale, 0, 0), ZERO, 0.5 / scale, 1 / scale, axes, q=q)
                 def make(axis, margin, p=ZERO): return two(POINT, POINT, free(p), x, leaf(axis), margin)
                 self.holds(self.M, make(n, 0.4999), make(minus(n), 0.4999, end))
                 self.fails("does not prove", self.M, make(n, 0.5001), make(minus(n), 0.5001, end), make(other, 0.0),
                            make(minus(other), 0.0))
         # The axis is x of the parent, or of the joint. The point at x = 1 of the link is at y = 1 of the parent.
-        # With the first axis it turns by half a turn to y = -1. With the second axis it stays.
+        # With the first axis it rotates by half a turn to y = -1. With the second axis it stays.
         b = points((1, 0, 0))
         files = *self.M, b, certificate(b)
         for axes, n in ((0, minus(Y)), (1, Y)):
-            x = moves(ZERO, (1, 0, 0), math.pi - 0.001, 0.002, axes, q=q)
+            x = moving_link(ZERO, (1, 0, 0), math.pi - 0.001, 0.002, axes, q=q)
             def make(axis, margin): return two(POINT, b, free(), x, leaf(axis), margin)
             self.holds(files, make(n, 0.9999))
             self.fails("does not prove", files, make(minus(n), 0.0), make(n, 1.0001))
@@ -670,28 +673,28 @@ class Joints(Case):
         for _ in range(30):
             v, a, p, c, (alpha, beta, t) = ([rng.uniform(-1, 1) for _ in range(3)] for _ in range(5))
             q = [rng.gauss(0, 1) for _ in range(4)]
-            x = moves(v, a, 2 * alpha, 2 * beta, 1, p, fscale(1 / flength(q), q), c)
-            turned = x._replace(axes=0, v=rotate(x.q, x.v), a=rotate(x.q, x.a))
-            double = x._replace(v=fscale(8, x.v), a=fscale(8, x.a), alpha=x.alpha / 8, beta=x.beta / 8)
-            want = self.poses(x, t)
-            for other in (turned, double):
-                for u, v in zip(self.poses(other, t), want):
+            x = moving_link(v, a, 2 * alpha, 2 * beta, 1, p, fscale(1 / flength(q), q), c)
+            along_parent_axes = x._replace(axes=0, v=rotate(x.q, x.v), a=rotate(x.q, x.a))
+            rescaled = x._replace(v=fscale(8, x.v), a=fscale(8, x.a), alpha=x.alpha / 8, beta=x.beta / 8)
+            expected = self.poses(x, t)
+            for other in (along_parent_axes, rescaled):
+                for u, v in zip(self.poses(other, t), expected):
                     self.assertLess(flength(fsub(u, v)), 1e-13)
-            unturned = self.poses(x._replace(axes=0), t)
-            self.assertGreater(max(flength(fsub(u, v)) for u, v in zip(unturned, want)), 1e-3)
+            without_rotation = self.poses(x._replace(axes=0), t)
+            self.assertGreater(max(flength(fsub(u, v)) for u, v in zip(without_rotation, expected)), 1e-3)
             # The usual formula of a joint, with its rotation applied before R0.
             s = x.alpha + t * x.beta
-            for e, column in zip(UNIT3, want[1:]):
+            for e, column in zip(UNIT3, expected[1:]):
                 self.assertLess(flength(fsub(rotate(x.q, turn_by(fscale(s, x.a), e)), column)), 1e-13)
 
     def test_screw_against_its_differential_equation(self):
-        # x' = v + a x (x - center) and center' = v from s = 0, by the Runge-Kutta method.
+        # Integrates x' = v + a x (x - center) and center' = v from s = 0 with the Runge-Kutta method.
         rng = random.Random(13)
         for trial in range(10):
             v, a, p, c, y = ([rng.uniform(-1, 1) for _ in range(3)] for _ in range(5))
             q, t = [rng.gauss(0, 1) for _ in range(4)], rng.random()
             q = fscale(1 / flength(q), q)
-            x = moves(v, a, rng.uniform(-3, 3), rng.uniform(-3, 3), trial & 1, p, q, c)
+            x = moving_link(v, a, rng.uniform(-3, 3), rng.uniform(-3, 3), trial & 1, p, q, c)
             matrix = [rotate(q, e) for e in UNIT3]  # the columns of the matrix
             def r0(u): return fadd(*[fscale(f, column) for f, column in zip(u, matrix)])
             if x.axes:
@@ -708,40 +711,40 @@ class Joints(Case):
             place, *columns = self.poses(x, t)
             z = fsub(y, c)
             self.assertLess(flength(fsub(fadd(place, *[fscale(f, u) for f, u in zip(z, columns)]), at)), 1e-8)
-            self.assertLess(flength(fsub(where([x], 1, y, t), at)), 1e-8)
+            self.assertLess(flength(fsub(in_world([x], 1, y, t), at)), 1e-8)
 
     def test_screw(self):
         # The point (2, 0, 0) of a link with the center (1, 0, 0) moves along one turn of a helix, up or down by 0.75.
-        # A plate is at z = 1. With half of a turn about x, v and a of the joint point down.
+        # A plate is at z = 1. With half of a rotate about x, v and a of the joint point down.
         b, corner = points((2, 0, 0)), (0, (WHOLE, 0, 0))
         plate = mesh([(-9, -9, 1), (9, -9, 1), (0, 9, 1)], [(0, 1, 2)])
-        files, turn, over = (b, certificate(b), plate, certificate(plate), *self.M), 2 * math.pi, (1, 0, 0, 0)
-        ways = (0, (0, 0, 0, 1), 1), (1, (0, 0, 0, 1), 1), (0, over, 1), (1, over, -1)
-        for (axes, q, side), pitch in itertools.product(ways, (0.75, -0.75)):
+        files, turn, half_turn = (b, certificate(b), plate, certificate(plate), *self.M), 2 * math.pi, (1, 0, 0, 0)
+        cases = (0, (0, 0, 0, 1), 1), (1, (0, 0, 0, 1), 1), (0, half_turn, 1), (1, half_turn, -1)
+        for (axes, q, side), pitch in itertools.product(cases, (0.75, -0.75)):
             v, p = (0, 0, pitch / turn), (0, 0, -side * 0.25 * pitch / turn)
-            x, gap = moves(v, (0, 0, 1), 0.25, turn, axes, p, q, (1, 0, 0)), 0.25 if side * pitch > 0 else 1.0
+            x, gap = moving_link(v, (0, 0, 1), 0.25, turn, axes, p, q, (1, 0, 0)), 0.25 if side * pitch > 0 else 1.0
             def make(margin):
-                return proof([x], [(b, 1), (plate, 0)], [(0, 1, margin)], halves(7, lambda _: leaf(Z)))
+                return proof([x], [(b, 1), (plate, 0)], [(0, 1, margin)], split_evenly(7, lambda _: leaf(Z)))
             self.holds(files, make(gap - 0.001))
             self.fails("does not prove", files, make(gap + 0.0001))
             for t in (0.0, 0.125, 0.5, 1.0):
                 s = 0.25 + turn * t
-                far = math.dist((1 + math.cos(s), side * math.sin(s), side * pitch * t), (5, 6, 7))
+                distance = math.dist((1 + math.cos(s), side * math.sin(s), side * pitch * t), (5, 6, 7))
                 def near(tolerance):
                     return proof([x, free(p=(5, 6, 7))], [(b, 1), (POINT, 2)], [(0, 1, 0.5)], leaf(Z),
                                  witness=(0, t, tolerance - 0.5, corner, corner))
-                self.assertNotIn("too far apart", self.run_files(files, near(far + 1e-9))[0][1])
-                self.fails("too far apart", files, near(far - 1e-9))
+                self.assertNotIn("too far apart", self.run_files(files, near(distance + 1e-9))[0][1])
+                self.fails("too far apart", files, near(distance - 1e-9))
 
     def test_links_against_samples(self):
         rng = random.Random(11)
         for trial in range(40):
             links = random_links(rng, 5, 2.0)
-            exact = self.exact_links(links)
+            checker_links = self.exact_links(links)
             for i, t in itertools.product(range(6), (0.0, 0.375, rng.random())):
-                place = fadd(*[[lo / so.ONE for lo, _ in x.pose(Fraction(t))[1]] for x in exact[i].chain])
-                self.assertLess(flength(fsub(place, where(links, i, center(links, i), t))), 1e-12)
-                columns = exact[i].pose(Fraction(t))[0]
+                place = fadd(*[[lo / so.ONE for lo, _ in x.pose(Fraction(t))[1]] for x in checker_links[i].chain])
+                self.assertLess(flength(fsub(place, in_world(links, i, center(links, i), t))), 1e-12)
+                columns = checker_links[i].pose(Fraction(t))[0]
                 for column, e in zip(columns, UNIT3):
                     self.assertLess(flength(fsub([lo / so.ONE for lo, _ in column], direction(links, i, e, t))), 1e-12)
                     self.assertLess(max(hi - lo for lo, hi in column), 1 << 24)
@@ -749,7 +752,7 @@ class Joints(Case):
 
 class Turning(Case):
     def setUp(self):
-        # Two plates turn together about the origin. They are at x = 0 and x = 1 of the same frame.
+        # Two plates rotate together about the origin. They are at x = 0 and x = 1 of the same frame.
         self.a = mesh([(0, -3, -3), (0, 3, -3), (0, 0, 3)], [(0, 1, 2)])
         self.b = mesh([(1, -3, -3), (1, 3, -3), (1, 0, 3)], [(0, 1, 2)])
         self.M = self.a, certificate(self.a), self.b, certificate(self.b)
@@ -762,29 +765,29 @@ class Turning(Case):
 
     def test_axis_turns_with_a_body(self):
         axis = along(math.cos(0.75), math.sin(0.75), 0)
-        for self.link in (free(w=(0, 0, 1.5)), turns(beta=1.5), turns((0, 0, 0.5), beta=3.0)):
+        for self.link in (free(w=(0, 0, 1.5)), revolute(beta=1.5), revolute((0, 0, 0.5), beta=3.0)):
             for apart, frame in itertools.product((False, True), (1, 2)):
                 self.holds(self.M, self.plates(leaf(axis, frame), 0.99, apart))
                 self.fails("does not prove", self.M, self.plates(leaf(axis, 0), 0.0, apart))
                 self.fails("does not prove", self.M, self.plates(leaf(X, frame), 0.0, apart))
 
     def test_two_links_that_turn_alike(self):
-        # The lemmas ignore that both turn about one axis. Over half of an interval each turns by 0.75 / 2^depth, and
-        # theta is twice that. The distance of the corners is at most sqrt 18 for A and sqrt 19 for B.
+        # The lemmas ignore that both rotate about one axis. Over half of an interval each rotates by 0.75 / 2^depth,
+        # and theta is twice that. The distance of the corners is at most sqrt 18 for A and sqrt 19 for B.
         for depth, frame in itertools.product((3, 4, 5), (1, 2)):
             theta = 1.5 / 2 ** depth
-            lost = theta ** 2 / 2 * math.sqrt(19 if frame == 1 else 18)   # with the frame of A, and of B
+            second_order_loss = theta ** 2 / 2 * math.sqrt(19 if frame == 1 else 18)   # with the frame of A, and of B
             def make(margin):
-                steps = halves(depth, lambda t: leaf(along(math.cos(1.5 * t), math.sin(1.5 * t), 0), frame))
+                steps = split_evenly(depth, lambda t: leaf(along(math.cos(1.5 * t), math.sin(1.5 * t), 0), frame))
                 return two(self.a, self.b, self.link, self.link, steps, margin)
-            self.holds(self.M, make(1 - lost - 1e-6))
-            self.fails("does not prove", self.M, make(1 - lost + 1e-6))
+            self.holds(self.M, make(1 - second_order_loss - 1e-6))
+            self.fails("does not prove", self.M, make(1 - second_order_loss + 1e-6))
 
     def test_axis_is_in_world_coordinates_at_the_middle(self):
         def at(middle):
             return leaf(along(math.cos(1.5 * middle), math.sin(1.5 * middle), 0), 1)
-        self.holds(self.M, self.plates(halves(2, at, 0, 1), margin=0.99))
-        self.fails("does not prove", self.M, self.plates(halves(2, lambda _: leaf(X, 1)), margin=0.99))
+        self.holds(self.M, self.plates(split_evenly(2, at, 0, 1), margin=0.99))
+        self.fails("does not prove", self.M, self.plates(split_evenly(2, lambda _: leaf(X, 1)), margin=0.99))
         # For one tick the middle is 0, and for three ticks it is 1. The interval is covered to its end.
         self.link = free(w=(0, 0, 0.25))
         for duration, middle in ((1.0, 0), (2.0, 1), (3.0, 1)):
@@ -796,132 +799,135 @@ class Turning(Case):
                 self.fails("does not prove", self.M, self.plates(other, margin=0.999, **ticks))
 
     def test_time_is_split(self):
-        # A rod of length 1 turns in the y-z plane by 4 radians. B is 3 above it.
+        # A rod of length 1 rotates in the y-z plane by 4 radians. B is 3 above it.
         a = mesh([(0, -1, 0), (0, 1, 0), (0.125, 0, 0)], [(0, 1, 2)])
         files = a, certificate(a), FLAT, FLAT_TREE
         def make(steps): return two(a, FLAT, free(w=(4, 0, 0)), free(p=(0, 0, 3)), steps, margin=1.0)
         self.fails("does not prove", files, make(leaf(Z)))
-        good = make(halves(3, lambda _: leaf(Z)))
+        good = make(split_evenly(3, lambda _: leaf(Z)))
         self.holds(files, good)
-        self.fails("does not prove", files, make(halves(3, lambda t: leaf(Z) if t < 0.9 else leaf(Y))))
+        self.fails("does not prove", files, make(split_evenly(3, lambda t: leaf(Z) if t < 0.9 else leaf(Y))))
         first, size = HEADER + 4 + 3, len(leaf(Z))
         self.fails("file ends", files, good[:-size])                       # without the last leaf
         self.fails("file ends", files, good[:first] + good[first + size:]) # without the first leaf
         # Without the last split and one of its leaves, the interval is longer, and the proof still holds.
-        self.holds(files, good[:first - 1] + good[first + size:], make(halves(2, lambda _: leaf(Z))))
+        self.holds(files, good[:first - 1] + good[first + size:], make(split_evenly(2, lambda _: leaf(Z))))
         for step in range(first, len(good)):                               # each plane is changed
             if good[step:step + size] == leaf(Z):
                 self.fails("", files, good[:step] + leaf(Z)[1:] + good[step + size:])
                 self.fails("does not prove", files, good[:step] + leaf(along(0.75, 0, 0)) + good[step + size:],
                            *[good[:step] + leaf(Z, 0, d << 38) + good[step + size:] for d in (-9, 0, 1, 11, 40)])
-        self.fails("", files, make(b"\0" + halves(3, lambda _: leaf(Z)))[:-size])
+        self.fails("", files, make(b"\0" + split_evenly(3, lambda _: leaf(Z)))[:-size])
 
 
 class SecondOrder(Case):
-    """Tests each term of the error bound of the lemmas. A margin slightly below is proven, one slightly above is not.
+    """Tests each term of the error bound of the lemmas. A margin slightly below the expected bound is proven, and one
+    slightly above is not.
 
-    The interval is 0.2 long, and links turn by 1 radian per time. All meshes are single points."""
-    def bound(self, want, links, ends, frame, za=(0, 0, 0), zb=(0, 0, 0), axis=X):
+    The interval is 0.2 long, and links rotate by 1 radian per time. All meshes are single points."""
+    def bound_is(self, expected, links, ends, frame, za=(0, 0, 0), zb=(0, 0, 0), axis=X):
         a, b = points(za), points(zb)
         files = a, certificate(a), b, certificate(b)
         def make(margin):
             return proof(links, [(a, ends[0]), (b, ends[1])], [(0, 1, margin)], leaf(axis, frame), 0.2)
-        self.holds(files, make(want - 1e-6))
-        self.fails("does not prove", files, make(want + 1e-6))
+        self.holds(files, make(expected - 1e-6))
+        self.fails("does not prove", files, make(expected + 1e-6))
 
     def test_one_joint(self):
         spin = free(w=(0, 0, 1))
-        self.bound(1 - 0.005, [spin, free(p=(1, 0, 0))], (1, 2), 1)                     # theta^2 |d|
-        # The velocity and the turn cancel in first order. The second order has theta^2 (|d| + |m|) and 2 theta |m|.
-        self.bound(1 - 0.005 * (1 + 0.1) - 0.1 * 0.1, [spin, free(p=(1, 0.1, 0), v=(0, -1, 0))], (1, 2), 1)
-        self.bound(1 - 0.005, [spin, free()], (1, 2), 1, zb=(1, 0, 0))                  # theta^2 r
+        self.bound_is(1 - 0.005, [spin, free(p=(1, 0, 0))], (1, 2), 1)                     # theta^2 |d|
+        # The velocity and the rotation cancel in first order. The second order has theta^2 (|d| + |m|) and 2 theta |m|.
+        self.bound_is(1 - 0.005 * (1 + 0.1) - 0.1 * 0.1, [spin, free(p=(1, 0.1, 0), v=(0, -1, 0))], (1, 2), 1)
+        self.bound_is(1 - 0.005, [spin, free()], (1, 2), 1, zb=(1, 0, 0))                  # theta^2 r
         back = free(q=(0, 0, -math.sin(0.05), math.cos(0.05)), w=(0, 0, 1))             # unrotated at the middle
-        self.bound(1 - 0.005, [free(), back], (1, 2), 0, zb=(1, 0, 0))
-        self.bound(1 - 0.005, [back, free()], (1, 2), 0, za=(-1, 0, 0))
-        joint = turns(alpha=-0.1, beta=1.0)
-        self.bound(1 - 0.005, [free(), joint], (1, 2), 0, zb=(1, 0, 0))
-        self.bound(1, [back], (1, 1), 2, za=(0, 1, 0), zb=(1, 1, 0))                    # both bodies turn together
-        self.bound(1, [joint], (1, 1), 1, za=(0, 1, 0), zb=(1, 1, 0))
+        self.bound_is(1 - 0.005, [free(), back], (1, 2), 0, zb=(1, 0, 0))
+        self.bound_is(1 - 0.005, [back, free()], (1, 2), 0, za=(-1, 0, 0))
+        joint = revolute(alpha=-0.1, beta=1.0)
+        self.bound_is(1 - 0.005, [free(), joint], (1, 2), 0, zb=(1, 0, 0))
+        self.bound_is(1, [back], (1, 1), 2, za=(0, 1, 0), zb=(1, 1, 0))         # both bodies rotate together
+        self.bound_is(1, [joint], (1, 1), 1, za=(0, 1, 0), zb=(1, 1, 0))
 
     def test_one_axis(self):
-        # theta ignores the directions of the axes. It is 0.2 for two joints, and K' is 0.04.
-        joint = turns(alpha=-0.1, beta=1.0)
+        # theta ignores the directions of the axes. For two joints theta is 0.2 and K' is 0.04.
+        joint = revolute(alpha=-0.1, beta=1.0)
         back = free(q=(0, 0, -math.sin(0.05), math.cos(0.05)), w=(0, 0, 1))
         # The path has one joint up and one down, so Omega = 0. A is at 1 from its center, and B at sqrt 2.
         for x in (joint, back):
-            self.bound(1 - 0.02, [x, x], (1, 2), 2, za=(0, 1, 0), zb=(1, 1, 0))
-            self.bound(1 - 0.02 * math.sqrt(2), [x, x], (1, 2), 1, za=(0, 1, 0), zb=(1, 1, 0))
-        # The second joint is on the first one, and turns in the same or the opposite direction, or about another axis.
+            self.bound_is(1 - 0.02, [x, x], (1, 2), 2, za=(0, 1, 0), zb=(1, 1, 0))
+            self.bound_is(1 - 0.02 * math.sqrt(2), [x, x], (1, 2), 1, za=(0, 1, 0), zb=(1, 1, 0))
+        # The second joint is on the first one. It rotates in the same or the opposite direction, or about another axis.
         for axis in ((0, 0, 1), (0, 0, -1), (1, 0, 0), (0.6, 0, 0.8)):
-            second = turns(axis, -0.1, 1.0, on=1)
-            self.bound(1 - 0.02, [joint, second], (0, 2), 0, zb=(1, 0, 0))
-            self.bound(1 - 0.02, [joint, second], (2, 0), 1, zb=(1, 0, 0))
-            self.bound(1 - 0.02, [joint, second, free(p=(1, 0, 0), on=2)], (0, 3), 0)
-            # The arm between the joints is carried by the first one.
-            second = turns(axis, -0.1, 1.0, p=(1, 0, 0), on=1)
-            self.bound(1 - 0.005, [joint, second], (0, 2), 0)
+            second = revolute(axis, -0.1, 1.0, on=1)
+            self.bound_is(1 - 0.02, [joint, second], (0, 2), 0, zb=(1, 0, 0))
+            self.bound_is(1 - 0.02, [joint, second], (2, 0), 1, zb=(1, 0, 0))
+            self.bound_is(1 - 0.02, [joint, second, free(p=(1, 0, 0), on=2)], (0, 3), 0)
+            # The offset between the joints rotates with the first one.
+            second = revolute(axis, -0.1, 1.0, p=(1, 0, 0), on=1)
+            self.bound_is(1 - 0.005, [joint, second], (0, 2), 0)
         # The joints have different speeds: 0.1 and 0.3.
-        second = turns((0, 0, 0.5), -0.6, 6.0, on=1)
-        self.bound(1 - 0.4 ** 2 / 2, [joint, second], (0, 2), 0, zb=(1, 0, 0))
-        # The arm on the second joint becomes longer: theta^2 (|d| + |m|) + 2 theta |m|.
-        slide = [joint, turns(alpha=-0.1, beta=1.0, on=1), slides((1, 0, 0), 0.9, 1.0, on=2)]
-        self.bound(1 - 0.1 - (0.04 * 1.1 + 2 * 0.2 * 0.1) / 2, slide, (0, 3), 0)
+        second = revolute((0, 0, 0.5), -0.6, 6.0, on=1)
+        self.bound_is(1 - 0.4 ** 2 / 2, [joint, second], (0, 2), 0, zb=(1, 0, 0))
+        # The offset on the second joint becomes longer: theta^2 (|d| + |m|) + 2 theta |m|.
+        slide = [joint, revolute(alpha=-0.1, beta=1.0, on=1), prismatic((1, 0, 0), 0.9, 1.0, on=2)]
+        self.bound_is(1 - 0.1 - (0.04 * 1.1 + 2 * 0.2 * 0.1) / 2, slide, (0, 3), 0)
 
     def test_chains(self):
-        z, x = turns(alpha=-0.1, beta=1.0), turns((1, 0, 0), -0.1, 1.0, on=1)
-        # The link turns about z and then about x, so theta = 0.2. A point on x is on the axis of its own joint.
-        self.bound(1 - 0.02, [z, x], (0, 2), 0, zb=(1, 0, 0))
-        self.bound(1 - 0.02, [z, x], (2, 0), 0, za=(-1, 0, 0))                           # the same for A
-        self.bound(1 - 0.02, [z, x, free(p=(1, 0, 0), on=2)], (0, 3), 0)                 # an arm instead of a point
-        # The frame turns with the end of the chain. The path goes up through x and then z, with opposite signs.
-        self.bound(1 - 0.02, [z, x], (2, 0), 1, zb=(1, 0, 0))
-        self.bound(1 - 0.02, [z, x], (0, 2), 2, za=(-1, 0, 0))
-        # The path goes up through x to z, and down through another joint with the same turn.
-        twin = turns((1, 0, 0), -0.1, 1.0, on=1)
-        self.bound(1 - 0.02, [z, x, twin], (2, 3), 1, zb=(1, 0, 0))
-        # The path goes up through x, and then along the arm of the twin. That is 1 long and carried by the link of z.
-        twin = turns((1, 0, 0), -0.1, 1.0, p=(1, 0, 0), on=1)
-        self.bound(1 - 0.005, [z, x, twin], (2, 3), 1)
-        # Each arm has its own bound. The path from A to B has arms of 5 and -4, and a path from the world one of them.
-        arms = [z, turns((1, 0, 0), -0.1, 1.0, p=(-5, 0, 0), on=1), turns((1, 0, 0), -0.1, 1.0, p=(-4, 0, 0), on=1)]
+        z, x = revolute(alpha=-0.1, beta=1.0), revolute((1, 0, 0), -0.1, 1.0, on=1)
+        # The link rotates about z and then about x, so theta = 0.2. A point on x is on the axis of its own joint.
+        self.bound_is(1 - 0.02, [z, x], (0, 2), 0, zb=(1, 0, 0))
+        self.bound_is(1 - 0.02, [z, x], (2, 0), 0, za=(-1, 0, 0))                           # the same for A
+        self.bound_is(1 - 0.02, [z, x, free(p=(1, 0, 0), on=2)], (0, 3), 0)    # an offset instead of a point
+        # The frame rotates with the end of the chain. The path goes up through x and then z, with opposite signs.
+        self.bound_is(1 - 0.02, [z, x], (2, 0), 1, zb=(1, 0, 0))
+        self.bound_is(1 - 0.02, [z, x], (0, 2), 2, za=(-1, 0, 0))
+        # The path goes up through x to z, and down through another joint with the same rotation.
+        twin = revolute((1, 0, 0), -0.1, 1.0, on=1)
+        self.bound_is(1 - 0.02, [z, x, twin], (2, 3), 1, zb=(1, 0, 0))
+        # The path goes up through x, and then along the offset of the twin. Its length is 1. It rotates with z's link.
+        twin = revolute((1, 0, 0), -0.1, 1.0, p=(1, 0, 0), on=1)
+        self.bound_is(1 - 0.005, [z, x, twin], (2, 3), 1)
+        # Each offset has its own bound. The path from A to B has the offsets 5 and -4, a path from the world only one.
+        offset_links = [z, *(revolute((1, 0, 0), -0.1, 1.0, p=(x, 0, 0), on=1) for x in (-5, -4))]
         for frame in (0, 1, 2):
-            self.bound(1 - 0.005 * 9, arms, (2, 3), frame)
-        # A prismatic joint does not turn. Its arm of 3 and the next arm of 4 are carried by the joint before.
-        slide = [z, slides((1, 0, 0), -3.0, 0.0, on=1), turns((1, 0, 0), -0.1, 1.0, p=(4, 0, 0), on=2)]
-        self.bound(1 - 0.005 * 7, slide, (0, 3), 0)
-        # The arm becomes longer: theta^2 (|d| + |m|) + 2 theta |m|.
-        slide = [z, slides((1, 0, 0), 0.9, 1.0, on=1)]
-        self.bound(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, slide, (0, 2), 0)
-        # A screw turns, and its arm becomes longer. The path has the arm before the turn, and the point after it.
-        screw = [z, moves((1, 0, 0), (0, 0, 1), -0.1, 1.0, 1, p=(1, 0, 0), on=1)]
-        self.bound(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, screw, (0, 2), 0)
-        self.bound(2 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1 + 0.04) / 2, screw, (0, 2), 0, zb=(1, 0, 0))
-        # In the frame of the screw, the path has the turn before the arm. A is at the position of z.
-        self.bound(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, screw, (1, 2), 2)
+            self.bound_is(1 - 0.005 * 9, offset_links, (2, 3), frame)
+        # A prismatic joint does not rotate. Its offset of 3 and the next offset of 4 rotate with the joint before.
+        slide = [z, prismatic((1, 0, 0), -3.0, 0.0, on=1), revolute((1, 0, 0), -0.1, 1.0, p=(4, 0, 0), on=2)]
+        self.bound_is(1 - 0.005 * 7, slide, (0, 3), 0)
+        # The offset becomes longer: theta^2 (|d| + |m|) + 2 theta |m|.
+        slide = [z, prismatic((1, 0, 0), 0.9, 1.0, on=1)]
+        self.bound_is(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, slide, (0, 2), 0)
+        # A screw rotates, and its offset becomes longer. The offset comes before the rotation, and the point after it.
+        screw = [z, moving_link((1, 0, 0), (0, 0, 1), -0.1, 1.0, 1, p=(1, 0, 0), on=1)]
+        self.bound_is(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, screw, (0, 2), 0)
+        self.bound_is(2 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1 + 0.04) / 2, screw, (0, 2), 0, zb=(1, 0, 0))
+        # In the frame of the screw, the path has the rotation before the offset. A is at the position of z.
+        self.bound_is(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, screw, (1, 2), 2)
 
     def test_three_joints(self):
         # theta = 0.3 for any axes in any order. Along one axis the bound is tight.
         for axis in ((0, 1, 0), (math.sqrt(0.5), 0, math.sqrt(0.5)), (0, 0, 1), (1, 0, 0)):
-            joints = [turns(alpha=-0.1, beta=1.0), turns((1, 0, 0), -0.1, 1.0, on=1), turns(axis, -0.1, 1.0, on=2)]
-            self.bound(1 - 0.09 / 2, joints, (0, 3), 0, zb=(1, 0, 0))
-            self.bound(1 - 0.09 / 2, joints, (3, 0), 0, za=(-1, 0, 0))
-            self.bound(1 - 0.09 / 2, joints, (3, 0), 1, zb=(1, 0, 0))
-        joints = [turns(alpha=-0.1, beta=1.0, on=i) for i in range(3)]
-        self.bound(1 - 0.09 / 2, joints, (0, 3), 0, zb=(1, 0, 0))
+            joints = [revolute(alpha=-0.1, beta=1.0), revolute((1, 0, 0), -0.1, 1.0, on=1),
+                      revolute(axis, -0.1, 1.0, on=2)]
+            self.bound_is(1 - 0.09 / 2, joints, (0, 3), 0, zb=(1, 0, 0))
+            self.bound_is(1 - 0.09 / 2, joints, (3, 0), 0, za=(-1, 0, 0))
+            self.bound_is(1 - 0.09 / 2, joints, (3, 0), 1, zb=(1, 0, 0))
+        joints = [revolute(alpha=-0.1, beta=1.0, on=i) for i in range(3)]
+        self.bound_is(1 - 0.09 / 2, joints, (0, 3), 0, zb=(1, 0, 0))
 
 
 class SecondDerivatives(Case):
     """Compares Lemma 2 with numerical derivatives of motions in binary64."""
-    STENCIL, STEP = (1 / 90, -3 / 20, 3 / 2, -49 / 18, 3 / 2, -3 / 20, 1 / 90), 0.02   # weights of a second derivative
+    # The weights of the finite difference formula for the second derivative.
+    STENCIL, STEP = (1 / 90, -3 / 20, 3 / 2, -49 / 18, 3 / 2, -3 / 20, 1 / 90), 0.02
 
-    def seen(self, links, frame, end, t):
-        """Returns the position of the other link's center, and its axes, in the frame of the link `frame`."""
-        origin, axes = where(links, frame, center(links, frame), t), [direction(links, frame, e, t) for e in UNIT3]
-        place = fsub(where(links, end, center(links, end), t), origin)
+    def pose_in_frame(self, links, frame, end, t):
+        """Returns the position of the center and the axes of the link `end`, in the frame of the link `frame`."""
+        origin, axes = in_world(links, frame, center(links, frame), t), [direction(links, frame, e, t) for e in UNIT3]
+        place = fsub(in_world(links, end, center(links, end), t), origin)
         return [[fdot(x, e) for e in axes] for x in (place, *(direction(links, end, e, t) for e in UNIT3))]
 
     def longest(self, columns):
-        """Returns the largest factor by which the matrix stretches a vector, or slightly less."""
+        """Returns the spectral norm of the matrix with these columns, or slightly less."""
         u = 0.8, 0.48, 0.36
         for _ in range(20):
             x = fadd(*map(fscale, u, columns))
@@ -930,17 +936,17 @@ class SecondDerivatives(Case):
         return flength(fadd(*map(fscale, u, columns)))
 
     def fractions(self, links, frame, end, t0, t1):
-        """Returns the largest used fraction of K and of K' at sampled times, or None for a small bound."""
-        exact, t, h = self.exact_links(links), (t0 + t1) / 2, (t1 - t0) / 2
-        *_, k, bend = so.motion(exact[frame], exact[end], Fraction(t), so.fix(Fraction(h)))
-        needs, out = [0, 0], []
+        """Returns the largest ratio of a sampled derivative to its bound: K and K'. It is None for a small bound."""
+        checker_links, t, h = self.exact_links(links), (t0 + t1) / 2, (t1 - t0) / 2
+        *_, k, k_prime = so.motion(checker_links[frame], checker_links[end], Fraction(t), so.fix(Fraction(h)))
+        maxima, out = [0, 0], []
         for i in range(-4, 5):
-            sides = [self.seen(links, frame, end, t + (i / 4 + j * self.STEP) * h) for j in range(-3, 4)]
-            place, *columns = [fscale(self.STEP ** -2, fadd(*map(fscale, self.STENCIL, v))) for v in zip(*sides)]
-            needs = [*map(max, needs, (flength(place), self.longest(columns)))]
-        for need, bound in zip(needs, (k / so.ONE, bend / so.ONE)):
-            self.assertLessEqual(need, bound * (1 + 1e-6) + 1e-8)
-            out.append(need / bound if bound > 0.01 else None)
+            samples = [self.pose_in_frame(links, frame, end, t + (i / 4 + j * self.STEP) * h) for j in range(-3, 4)]
+            place, *columns = [fscale(self.STEP ** -2, fadd(*map(fscale, self.STENCIL, v))) for v in zip(*samples)]
+            maxima = [*map(max, maxima, (flength(place), self.longest(columns)))]
+        for min_tolerance, bound in zip(maxima, (k / so.ONE, k_prime / so.ONE)):
+            self.assertLessEqual(min_tolerance, bound * (1 + 1e-6) + 1e-8)
+            out.append(min_tolerance / bound if bound > 0.01 else None)
         return out
 
     def test_random_chains(self):
@@ -958,219 +964,222 @@ class SecondDerivatives(Case):
             self.assertGreater(sum(found) / len(found), mean)
 
     def test_bounds_that_are_needed(self):
-        # With all joints along one axis, K' is tight. So is the bound of an arm across that axis, up or down.
+        # With all joints along one axis, K' is tight. So is the bound of an offset across that axis, up or down.
         for count in (1, 2, 3):
-            joints = [turns(alpha=-0.1 * i, beta=1.0 + i, on=i) for i in range(count)]
+            joints = [revolute(alpha=-0.1 * i, beta=1.0 + i, on=i) for i in range(count)]
             arm = [*joints, free(p=(1, 0, 0), on=count)]
             self.assertGreater(self.fractions(joints, 0, count, 0.25, 0.5)[1], 0.999)
             self.assertGreater(self.fractions(joints, count, 0, 0.25, 0.5)[1], 0.999)
             self.assertGreater(self.fractions(arm, 0, count + 1, 0.25, 0.5)[0], 0.999)
-            # On the way up, all later joints turn the arm of the first one.
+            # On the way up, all later joints rotate the offset of the first one.
             up = [joints[0]._replace(p=(1, 0, 0)), *joints[1:]]
             self.assertGreater(self.fractions(up, count, 0, 0.25, 0.5)[0], 0.999)
-            # The path goes up and down, with opposite turns.
+            # The path goes up and down, with opposite rotations.
             down = [x._replace(beta=-x.beta, alpha=-x.alpha, on=x.on and x.on + count) for x in joints]
             both = [*joints, *down, free(p=(1, 0, 0), on=2 * count)]
-            place, turned = self.fractions(both, count, 2 * count + 1, 0.25, 0.5)
-            self.assertGreater(min(place, turned), 0.999)
-        # An arm that passes the axis needs 2 theta |m|. Its theta^2 |m| is comparatively small.
+            place, along_parent_axes = self.fractions(both, count, 2 * count + 1, 0.25, 0.5)
+            self.assertGreater(min(place, along_parent_axes), 0.999)
+        # An offset that passes the axis needs 2 theta |m|. Its theta^2 |m| is comparatively small.
         for half, least in ((0.05, 0.95), (0.01, 0.99)):
-            slide = [turns(beta=1.0), slides((1000, 0, 0), -0.5, 1.0, on=1)]
+            slide = [revolute(beta=1.0), prismatic((1000, 0, 0), -0.5, 1.0, on=1)]
             self.assertGreater(self.fractions(slide, 0, 2, 0.5 - half, 0.5 + half)[0], least)
-            self.assertGreater(self.fractions([slides((1000, 0, 0), -0.5, 1.0), turns(beta=1.0, on=1)], 2, 0,
+            self.assertGreater(self.fractions([prismatic((1000, 0, 0), -0.5, 1.0), revolute(beta=1.0, on=1)], 2, 0,
                                            0.5 - half, 0.5 + half)[0], least)
 
 
 class Balls(Case):
-    """Tests leaves with balls. A margin slightly below is proven, one slightly above is not. Distances are exact in
-    binary64, except those after turns."""
-    def exactly(self, want, a, b, la, lb, step, slack=0.0, **more):
-        self.bound(want, [la, lb], a, b, (1, 2), step, slack, **more)
+    """Tests leaves with balls. A margin slightly below the expected bound is proven, and one slightly above is not.
+    Distances are exact in binary64, except after rotations."""
+    def pair_bound_is(self, expected, a, b, la, lb, step, slack=0.0, **more):
+        self.bound_is(expected, [la, lb], a, b, (1, 2), step, slack, **more)
 
-    def bound(self, want, links, a, b, ends, step, slack=1e-9, orders=(None, None), **more):
+    def bound_is(self, expected, links, a, b, ends, step, slack=1e-9, orders=(None, None), **more):
         files = [x for m, order in zip((a, b), orders) for x in (m, certificate(m, order))]
         def make(margin): return proof(links, [(a, ends[0]), (b, ends[1])], [(0, 1, margin)], step, **more)
-        if want <= 0:
+        if expected <= 0:
             self.fails("is too near", files, make(0.0))
         else:
-            self.holds(files, make(want - slack if slack else math.nextafter(want, 0)))
-            why = f"the ball around {'AB'[step[0] - 6]} of pair 0 is too near the other part"
-            self.fails(why, files, make(want + slack))
+            self.holds(files, make(expected - slack if slack else math.nextafter(expected, 0)))
+            reason = f"the ball around {'AB'[step[0] - 6]} of pair 0 is too near the other node"
+            self.fails(reason, files, make(expected + slack))
 
-    def both(self, want_a, want_b, a, b, la=free(), lb=free(), slack=0.0, **more):
+    def bounds_are(self, want_a, want_b, a, b, la=free(), lb=free(), slack=0.0, **more):
         """Tests the margins that a ball around A and one around B prove, and the same with A and B exchanged."""
-        for want, step, other in ((want_a, AROUND_A, AROUND_B), (want_b, AROUND_B, AROUND_A)):
-            self.exactly(want, a, b, la, lb, step, slack, **more)
-            self.exactly(want, b, a, lb, la, other, slack, **more)
+        for expected, step, other in ((want_a, AROUND_A, AROUND_B), (want_b, AROUND_B, AROUND_A)):
+            self.pair_bound_is(expected, a, b, la, lb, step, slack, **more)
+            self.pair_bound_is(expected, b, a, lb, la, other, slack, **more)
 
     def test_points(self):
-        for x, y, z, far in ((1, 0, 0, 1), (0, -2, 0, 2), (0, 0, 0.5, 0.5), (3, -4, 12, 13), (-2, 3, 6, 7),
+        for x, y, z, distance in ((1, 0, 0, 1), (0, -2, 0, 2), (0, 0, 0.5, 0.5), (3, -4, 12, 13), (-2, 3, 6, 7),
                              (0, 0, 0, 0)):
-            self.both(far, far, POINT, points((x, y, z)))
-            self.both(far, far, POINT, POINT, free(p=(1, 2, 3)), free(p=(1 + x, 2 + y, 3 + z)))
-            self.both(far, far, POINT, points((x - 1, y + 2, z)), lb=free(p=(1, -2, 0), c=(7, 8, -9)))
+            self.bounds_are(distance, distance, POINT, points((x, y, z)))
+            self.bounds_are(distance, distance, POINT, POINT, free(p=(1, 2, 3)), free(p=(1 + x, 2 + y, 3 + z)))
+            self.bounds_are(distance, distance, POINT, points((x - 1, y + 2, z)), lb=free(p=(1, -2, 0), c=(7, 8, -9)))
 
     def test_radii(self):
         for ra, rb in ((0.25, 0), (0, 0.25), (0.5, 0.125), (0.75, 0.25), (2, 0)):
-            self.both(1 - ra - rb, 1 - ra - rb, points((0, 0, 0, ra)), points((0, 0, 1, rb)))
+            self.bounds_are(1 - ra - rb, 1 - ra - rb, points((0, 0, 0, ra)), points((0, 0, 1, rb)))
         # The ball's center is that of the bounding box of the vertices, and the largest radius is added to its radius.
-        self.both(1.5, 1.5, points((0, 0, 0), (2, 0, 0, 0.5)), points((4, 0, 0)))
-        self.both(1.5, 2, points((0, 0, 0, 0.5), (2, 0, 0)), points((4, 0, 0)))
-        # Boxes of the other part are split down to triangles. A triangle counts with the largest radius of its corners.
+        self.bounds_are(1.5, 1.5, points((0, 0, 0), (2, 0, 0, 0.5)), points((4, 0, 0)))
+        self.bounds_are(1.5, 2, points((0, 0, 0, 0.5), (2, 0, 0)), points((4, 0, 0)))
+        # Boxes of the other node are split down to triangles. A triangle counts with the largest radius of its corners.
         a = points((0, 0, 0, 0.125))
-        self.exactly(0.625, a, points((1, 0, 0, 0.25), (3, 0, 0, 1.5)), free(), free(), AROUND_A)
+        self.pair_bound_is(0.625, a, points((1, 0, 0, 0.25), (3, 0, 0, 1.5)), free(), free(), AROUND_A)
         b = mesh([(1, 0, 0), (3, 0, 0, 0.5), (3, 1, 0)], [(0, 1, 2)])
-        self.exactly(0.875 - 0.5, a, b, free(), free(), AROUND_A)
+        self.pair_bound_is(0.875 - 0.5, a, b, free(), free(), AROUND_A)
 
     def test_ball_is_around_the_box(self):
         # The box of A is 6 by 8 around (7, -2, 1), with most vertices at one end.
         a = points((4, -2, 5), (10, -2, 5), (4, -2, -3), (4, -2, 4.5), (4, -2, 4))
-        for place, far in (((7, -10, 1), 8), ((7, 10, 1), 12), ((22, -2, 1), 15), ((10, 2, 13), 13), ((7, 3, 1), 5)):
-            self.exactly(far - 5, a, points(place), free(), free(), AROUND_A)
+        for place, distance in (((7, -10, 1), 8), ((7, 10, 1), 12), ((22, -2, 1), 15), ((10, 2, 13), 13),
+                                ((7, 3, 1), 5)):
+            self.pair_bound_is(distance - 5, a, points(place), free(), free(), AROUND_A)
         a = mesh([(4, -2, 5), (10, -2, 5), (4, -2, -3)], [(0, 1, 2)])
-        for place, far, near in (((7, -10, 1), 8, 8), ((7, 10, 1), 12, 12), ((22, -2, 1), 15, 12), ((7, 3, 1), 5, 5)):
-            self.both(far - 5, near, a, points(place))
-        self.exactly(13 - 2.5, points((0, 0, 0), (3, 4, 0)), points((4.5, 6, 12)), free(), free(), AROUND_A)
+        for place, distance, near in (((7, -10, 1), 8, 8), ((7, 10, 1), 12, 12), ((22, -2, 1), 15, 12),
+                                      ((7, 3, 1), 5, 5)):
+            self.bounds_are(distance - 5, near, a, points(place))
+        self.pair_bound_is(13 - 2.5, points((0, 0, 0), (3, 4, 0)), points((4.5, 6, 12)), free(), free(), AROUND_A)
         # The ball reaches the farthest vertex, not the corners of the box. Here its radius is 4 around the origin.
         a = points((-3, 0, 0), (0, 0, 4), (3, 0, 0), (0, 0, -4))
         for order in itertools.permutations(range(4)):
-            self.bound(13 - 4, [], a, points((5, 12, 0)), (0, 0), AROUND_A, 0.0, orders=(order, None))
+            self.bound_is(13 - 4, [], a, points((5, 12, 0)), (0, 0), AROUND_A, 0.0, orders=(order, None))
         # The farthest vertex and the largest radius may belong to different vertices.
         a = points((-3, 0, 0, 0.5), (0, 0, 4, 0.25), (3, 0, 0, 0.75), (0, 0, -4))
-        self.exactly(13 - 4.75, a, points((5, 12, 0)), free(), free(), AROUND_A)
+        self.pair_bound_is(13 - 4.75, a, points((5, 12, 0)), free(), free(), AROUND_A)
 
     def test_other_part_is_boxes_of_triangles(self):
         # A point is in the box of a triangle, but not in the triangle. No ball separates them, but a plane does.
         b = mesh([(0, 0, 0), (2, 0, 0), (0, 2, 0)], [(0, 1, 2)])
-        self.exactly(0, points((1.5, 1.5, 0)), b, free(), free(), AROUND_A)
-        self.exactly(0, points((2, 2, 0)), b, free(), free(), AROUND_A)
-        self.exactly(1, points((2, 3, 0)), b, free(), free(), AROUND_A)
-        self.exactly(5, points((5, 6, 0)), b, free(), free(), AROUND_A)
-        self.exactly(13, points((5, 6, -12)), b, free(), free(), AROUND_A)
-        self.exactly(13, points((-3, -4, 12)), b, free(), free(), AROUND_A)
-        self.exactly(3, points((1, -3, 0)), b, free(), free(), AROUND_A)
+        self.pair_bound_is(0, points((1.5, 1.5, 0)), b, free(), free(), AROUND_A)
+        self.pair_bound_is(0, points((2, 2, 0)), b, free(), free(), AROUND_A)
+        self.pair_bound_is(1, points((2, 3, 0)), b, free(), free(), AROUND_A)
+        self.pair_bound_is(5, points((5, 6, 0)), b, free(), free(), AROUND_A)
+        self.pair_bound_is(13, points((5, 6, -12)), b, free(), free(), AROUND_A)
+        self.pair_bound_is(13, points((-3, -4, 12)), b, free(), free(), AROUND_A)
+        self.pair_bound_is(3, points((1, -3, 0)), b, free(), free(), AROUND_A)
         a = points((1.5, 1.5, 0))
         apart = two(a, b, free(), free(), leaf(along(-math.sqrt(0.5), -math.sqrt(0.5), 0)), 0.7)
         self.holds((a, certificate(a), b, certificate(b)), apart)
-        # The nearest triangle counts, at any index. The boxes of most parts contain the point.
+        # The nearest triangle counts, at any index. The boxes of most nodes contain the point.
         b = points((-3, -4, 0), (6, 8, 0), (0, 2, 0), (0, 7, 0))
         for order in itertools.permutations(range(4)):
-            self.bound(2, [], points((0, 0, 0)), b, (0, 0), AROUND_A, 0.0, orders=(None, order))
+            self.bound_is(2, [], points((0, 0, 0)), b, (0, 0), AROUND_A, 0.0, orders=(None, order))
 
     def test_moves(self):
         # B passes A. At half of the time it is 4 away. It moves by 3 to both sides of that point.
-        self.both(1, 1, POINT, points((5, 0, 0)), lb=free(p=(-1, -3, 0), v=(0, 6, 0)))
-        self.both(1, 1, POINT, POINT, la=free(v=(1, 0, 0)), lb=free(p=(4, -3, 0), v=(1, 6, 0)))
-        self.both(3, 3, POINT, POINT, lb=free(p=(5, 0, 0), v=(-2, 0, 0)))
-        self.both(3, 3, POINT, POINT, lb=slides((-1, 0, 0), -5.0, 2.0))
-        self.both(0, 0, POINT, POINT, lb=free(p=(5, 0, 0), v=(-5, 0, 0)))
-        self.both(2, 2, POINT, POINT, lb=free(p=(5, 0, 0), v=(-2, 0, 0)), duration=1.5)
-        self.both(5, 5, POINT, POINT, lb=free(p=(5, 0, 0), v=(-2, 0, 0)), duration=0.0)
+        self.bounds_are(1, 1, POINT, points((5, 0, 0)), lb=free(p=(-1, -3, 0), v=(0, 6, 0)))
+        self.bounds_are(1, 1, POINT, POINT, la=free(v=(1, 0, 0)), lb=free(p=(4, -3, 0), v=(1, 6, 0)))
+        self.bounds_are(3, 3, POINT, POINT, lb=free(p=(5, 0, 0), v=(-2, 0, 0)))
+        self.bounds_are(3, 3, POINT, POINT, lb=prismatic((-1, 0, 0), -5.0, 2.0))
+        self.bounds_are(0, 0, POINT, POINT, lb=free(p=(5, 0, 0), v=(-5, 0, 0)))
+        self.bounds_are(2, 2, POINT, POINT, lb=free(p=(5, 0, 0), v=(-2, 0, 0)), duration=1.5)
+        self.bounds_are(5, 5, POINT, POINT, lb=free(p=(5, 0, 0), v=(-2, 0, 0)), duration=0.0)
         lb = free(p=(4, -3, 0), v=(0, 6, 0))
         for step in (AROUND_A, AROUND_B):
-            made = [two(POINT, POINT, free(), lb, halves(1, lambda _: step), margin) for margin in (2.77, 2.78)]
+            made = [two(POINT, POINT, free(), lb, split_evenly(1, lambda _: step), margin) for margin in (2.77, 2.78)]
             self.holds((POINT, POINT_TREE), made[0])                            # sqrt(16 + 2.25) - 1.5
             self.fails("is too near", (POINT, POINT_TREE), made[1])
 
     def test_ticks(self):
         # For one tick the middle is 0, and the interval begins before. For three ticks the middle is 1.
-        for ticks, want in ((1, 10 - 1), (2, 9 - 1), (3, 9 - 2), (4, 8 - 2)):
+        for ticks, expected in ((1, 10 - 1), (2, 9 - 1), (3, 9 - 2), (4, 8 - 2)):
             for duration in ticks - 1.0, ticks - 0.5:
                 more = {"lb": free(p=(10, 0, 0), v=(-1, 0, 0)), "duration": duration, "units": TICKS}
-                self.both(want, want, POINT, POINT, **more)
+                self.bounds_are(expected, expected, POINT, POINT, **more)
 
     def test_units(self):
         a, b = points((0, 0, 0, 0.125), (6, 0, 8)), points((3, 12, 4, 0.125), (3, 20, 4))
         for e in (-1000, -60, -40, 0, 3, 40, 100):
             for lb in (free(), free(p=(0, -1, 0), v=(0, 2, 0)), free(c=(2.0 ** -60, 2.0 ** 40, 0))):
                 drop = any(lb.v)
-                self.exactly(12 - 5 - 0.25 - drop, a, b, free(), lb, AROUND_A, 1e-6 if e > 64 else 0.0, units=(e, 0))
-        big = 2.0 ** 990
-        self.both(2 * big, 2 * big, POINT, points((0, 3 * big, 0, big)), units=(950, 0))
+                slack = 1e-6 if e > 64 else 0.0
+                self.pair_bound_is(12 - 5 - 0.25 - drop, a, b, free(), lb, AROUND_A, slack, units=(e, 0))
+        large = 2.0 ** 990
+        self.bounds_are(2 * large, 2 * large, POINT, points((0, 3 * large, 0, large)), units=(950, 0))
         tiny = 5e-324
-        self.both(2 * tiny, 2 * tiny, POINT, points((0, 3 * tiny, 0, tiny)), units=(-1074, 0))
+        self.bounds_are(2 * tiny, 2 * tiny, POINT, points((0, 3 * tiny, 0, tiny)), units=(-1074, 0))
 
     def test_both_move_together(self):
         # The frame is the other body's link.
         a, b = points((20, 0, 0)), points((23, 4, 0))
-        fly = free(p=(-4.5, 4.5, -4.5), v=(9, -9, 9))
-        self.both(5, 5, a, b, fly, fly)
-        self.both(0, 0, a, b, fly, free())          # each moves by 7.8 to both sides
-        self.both(0, 0, a, b, free(), fly)
-        for spin in (turns(beta=6.0), turns((1, 2, -2), 1.0, 2.0, p=(1, 1, 1)),
+        common_motion = free(p=(-4.5, 4.5, -4.5), v=(9, -9, 9))
+        self.bounds_are(5, 5, a, b, common_motion, common_motion)
+        self.bounds_are(0, 0, a, b, common_motion, free())          # each moves by 7.8 to both sides
+        self.bounds_are(0, 0, a, b, free(), common_motion)
+        for spin in (revolute(beta=6.0), revolute((1, 2, -2), 1.0, 2.0, p=(1, 1, 1)),
                      free(w=(3, -6, 6), v=(1, 9, 9), c=(1, 2, 3))):
             for step in (AROUND_A, AROUND_B):
-                self.bound(5, [spin], a, b, (1, 1), step)
-                self.bound(5, [spin, free(p=(1, 0, 0), on=1), free(p=(1, 3, 4), on=1)], POINT, POINT, (2, 3), step)
-                # One of them slides on the turning link, by 1 to both sides of (3, 4, 0).
-                self.bound(4, [spin, free(on=1), free(p=(2, 4, 0), v=(2, 0, 0), on=1)], POINT, POINT, (2, 3), step)
-                self.bound(0, [spin, free(on=1)], a, b, (2, 0), step)
-                self.bound(0, [spin, free(on=1)], a, b, (0, 2), step)
+                self.bound_is(5, [spin], a, b, (1, 1), step)
+                self.bound_is(5, [spin, free(p=(1, 0, 0), on=1), free(p=(1, 3, 4), on=1)], POINT, POINT, (2, 3), step)
+                # One of them slides on the rotating link, by 1 to both sides of (3, 4, 0).
+                self.bound_is(4, [spin, free(on=1), free(p=(2, 4, 0), v=(2, 0, 0), on=1)], POINT, POINT, (2, 3), step)
+                self.bound_is(0, [spin, free(on=1)], a, b, (2, 0), step)
+                self.bound_is(0, [spin, free(on=1)], a, b, (0, 2), step)
 
     def test_turning(self):
-        # A turns by 0.5 to both sides. The corner at distance 2 moves by 1 in first order, and the second order adds
-        # half of 0.25 * 2. In the frame of A, the corner of B at distance 10 turns instead.
-        corner, far, back = points((2, 0, 0)), points((10, 0, 0)), (0, 0, -math.sin(0.25), math.cos(0.25))
-        for a in (turns(alpha=-0.5, beta=1.0), turns((0, 0, -0.25), 2.0, -4.0), free(q=back, w=(0, 0, 1))):
-            self.both(8 - 1 - 0.25, 8 - 5 - 1.25, corner, far, a, free(), 1e-9)
-            self.both(7.75 - 1 - 0.25, 7.75 - 5 - 1.25, points((2, 0, 0, 0.25)), far, a, free(), 1e-9)
-            # The center of the ball counts, not the corners of the part.
-            self.both(10, 10 - 5 - 1.25, POINT, far, a, free(), 1e-9)
-            self.exactly(10 - 3, points((-3, 0, 0), (3, 0, 0)), far, a, free(), AROUND_A, 1e-9)
-            self.exactly(8 - 3 - 1 - 0.25, points((-1, 0, 0), (5, 0, 0)), far, a, free(), AROUND_A, 1e-9)
-            # On the axis nothing moves, but the bound of the second derivative ignores the direction of the arm.
-            self.both(10 - 0.25, 10 - 1.5, points((0, 0, 2)), points((0, 0, 12)), a, free(), 1e-9)
+        # A rotates by 0.5 to both sides. The corner at distance 2 moves by 1 in first order, and the second order adds
+        # half of 0.25 * 2. In the frame of A, the corner of B at distance 10 rotates instead.
+        corner, distance, back = points((2, 0, 0)), points((10, 0, 0)), (0, 0, -math.sin(0.25), math.cos(0.25))
+        for a in (revolute(alpha=-0.5, beta=1.0), revolute((0, 0, -0.25), 2.0, -4.0), free(q=back, w=(0, 0, 1))):
+            self.bounds_are(8 - 1 - 0.25, 8 - 5 - 1.25, corner, distance, a, free(), 1e-9)
+            self.bounds_are(7.75 - 1 - 0.25, 7.75 - 5 - 1.25, points((2, 0, 0, 0.25)), distance, a, free(), 1e-9)
+            # The center of the ball counts, not the corners of the node.
+            self.bounds_are(10, 10 - 5 - 1.25, POINT, distance, a, free(), 1e-9)
+            self.pair_bound_is(10 - 3, points((-3, 0, 0), (3, 0, 0)), distance, a, free(), AROUND_A, 1e-9)
+            self.pair_bound_is(8 - 3 - 1 - 0.25, points((-1, 0, 0), (5, 0, 0)), distance, a, free(), AROUND_A, 1e-9)
+            # On the axis nothing moves, but the bound of the second derivative ignores the direction of the offset.
+            self.bounds_are(10 - 0.25, 10 - 1.5, points((0, 0, 2)), points((0, 0, 12)), a, free(), 1e-9)
         # With another center, the corner is at distance 2 from it.
         a = free(p=fscale(-5, rotate(back, (1, 0, 0))), q=back, w=(0, 0, 1), c=(5, 0, 0))
-        self.exactly(8 - 1 - 0.25, points((7, 0, 0)), far, a, free(), AROUND_A, 1e-9)
+        self.pair_bound_is(8 - 1 - 0.25, points((7, 0, 0)), distance, a, free(), AROUND_A, 1e-9)
         # At the middle of the time A points to y.
-        a = turns(alpha=math.pi / 2 - 0.5, beta=1.0)
-        self.exactly(8 - 1.25, corner, points((0, 10, 0)), a, free(), AROUND_A, 1e-9)
-        self.exactly(math.sqrt(104) - 1.25, corner, far, a, free(), AROUND_A, 1e-9)
-        # Half of the velocity, and the turn's displacement of 1 along y, are added as vectors.
+        a = revolute(alpha=math.pi / 2 - 0.5, beta=1.0)
+        self.pair_bound_is(8 - 1.25, corner, points((0, 10, 0)), a, free(), AROUND_A, 1e-9)
+        self.pair_bound_is(math.sqrt(104) - 1.25, corner, distance, a, free(), AROUND_A, 1e-9)
+        # Half of the velocity, and the rotation's displacement of 1 along y, are added as vectors.
         for v, m in (((6, 0, 0), math.hypot(3, 1)), ((0, 6, 0), 4), ((0, -2, 0), 0), ((0, -6, 0), 2),
                      ((0, 0, 1), math.hypot(1, 0.5))):
             a = free(p=fscale(-0.5, v), q=back, v=v, w=(0, 0, 1))
-            self.exactly(8 - m - 0.25, corner, far, a, free(), AROUND_A, 1e-9)
+            self.pair_bound_is(8 - m - 0.25, corner, distance, a, free(), AROUND_A, 1e-9)
 
     def test_chains(self):
-        # As in SecondOrder, the interval is 0.2 long, and each joint turns by 0.1 to both sides.
-        z, x, k = turns(alpha=-0.1, beta=1.0), turns((1, 0, 0), -0.1, 1.0, on=1), 0.2 ** 2
-        one, far = points((1, 0, 0)), points((10, 0, 0))
-        self.bound(9 - 0.1 - k / 2, [z, x], one, far, (2, 0), AROUND_A, duration=0.2)
-        self.bound(9 - 0.1 - k / 2, [z, x], far, one, (0, 2), AROUND_B, duration=0.2)
-        self.bound(9 - 0.1 - k / 2, [z, x, free(p=(1, 0, 0), on=2)], POINT, far, (3, 0), AROUND_A, duration=0.2)
-        self.bound(9 - 1 - 10 * k / 2, [z, x], one, far, (2, 0), AROUND_B, duration=0.2)
-        # In the frame of the link of z, only x turns, about the axis through the point.
-        self.bound(9 - 0.005, [z, x], one, far, (2, 1), AROUND_A, duration=0.2)
-        self.bound(9 - 0.05, [z, x], one, far, (2, 1), AROUND_B, duration=0.2)
-        # Two parallel joints turn by the same angle, so the links are static relative to each other. The lemmas ignore
+        # As in SecondOrder, the interval is 0.2 long, and each joint rotates by 0.1 to both sides.
+        z, x, k = revolute(alpha=-0.1, beta=1.0), revolute((1, 0, 0), -0.1, 1.0, on=1), 0.2 ** 2
+        one, distance = points((1, 0, 0)), points((10, 0, 0))
+        self.bound_is(9 - 0.1 - k / 2, [z, x], one, distance, (2, 0), AROUND_A, duration=0.2)
+        self.bound_is(9 - 0.1 - k / 2, [z, x], distance, one, (0, 2), AROUND_B, duration=0.2)
+        self.bound_is(9 - 0.1 - k / 2, [z, x, free(p=(1, 0, 0), on=2)], POINT, distance, (3, 0), AROUND_A, duration=0.2)
+        self.bound_is(9 - 1 - 10 * k / 2, [z, x], one, distance, (2, 0), AROUND_B, duration=0.2)
+        # In the frame of the link of z, only x rotates, about the axis through the point.
+        self.bound_is(9 - 0.005, [z, x], one, distance, (2, 1), AROUND_A, duration=0.2)
+        self.bound_is(9 - 0.05, [z, x], one, distance, (2, 1), AROUND_B, duration=0.2)
+        # Two joints rotate by the same angle, so the links are static relative to each other. The lemmas ignore
         # that the joints have the same axis.
-        twin = turns((1, 0, 0), -0.1, 1.0, on=1)
-        self.bound(9 - k / 2, [z, x, twin], one, far, (2, 3), AROUND_A, duration=0.2)
-        self.bound(9 - 10 * k / 2, [z, x, twin], one, far, (2, 3), AROUND_B, duration=0.2)
+        twin = revolute((1, 0, 0), -0.1, 1.0, on=1)
+        self.bound_is(9 - k / 2, [z, x, twin], one, distance, (2, 3), AROUND_A, duration=0.2)
+        self.bound_is(9 - 10 * k / 2, [z, x, twin], one, distance, (2, 3), AROUND_B, duration=0.2)
 
     def test_axes_of_links(self):
         # B is a rod along its own x, which is rotated to y = x. In its frame A is at (12, 5), or at (-5, -12).
         q, s = (0, 0, math.sin(math.pi / 8), math.cos(math.pi / 8)), math.sqrt(0.5)
         rod_b = points(*[(i, 0, 0) for i in range(25)])
-        for up in (free, turns, slides):
+        for up in (free, revolute, prismatic):
             lb = up(p=(1, 2, 3), q=q)
-            self.exactly(5, points((1 + 7 * s, 2 + 17 * s, 3)), rod_b, free(), lb, AROUND_A, 1e-9)
-            self.exactly(13, points((1 + 7 * s, 2 - 17 * s, 3)), rod_b, free(), lb, AROUND_A, 1e-9)
+            self.pair_bound_is(5, points((1 + 7 * s, 2 + 17 * s, 3)), rod_b, free(), lb, AROUND_A, 1e-9)
+            self.pair_bound_is(13, points((1 + 7 * s, 2 - 17 * s, 3)), rod_b, free(), lb, AROUND_A, 1e-9)
         # The center of the ball around A is at (0, 1, 0) after a quarter turn. The rotation of B does not matter.
         a, quarter = points((0, 0, 0), (2, 0, 0)), (0, 0, math.sqrt(0.5), math.sqrt(0.5))
         for qb in ((0, 0, 0, 1), quarter, (0.5, 0.5, 0.5, 0.5)):
-            self.exactly(1, a, POINT, free(q=quarter), free(p=(0, 3, 0), q=qb), AROUND_A, 1e-9)
-            self.exactly(4, a, POINT, free(q=quarter), free(p=(3, 5, 0), q=qb), AROUND_A, 1e-9)
+            self.pair_bound_is(1, a, POINT, free(q=quarter), free(p=(0, 3, 0), q=qb), AROUND_A, 1e-9)
+            self.pair_bound_is(4, a, POINT, free(q=quarter), free(p=(3, 5, 0), q=qb), AROUND_A, 1e-9)
         # Both links have centers that are not at the origin.
         la, lb = free(q=quarter, c=(3, 1, 2)), free(p=(0, 3, 0), q=quarter, c=(-1, 4, 2))
-        self.exactly(1, a, POINT, la, lb, AROUND_A, 1e-9)
+        self.pair_bound_is(1, a, POINT, la, lb, AROUND_A, 1e-9)
 
     def test_parts(self):
         # The ball around the whole A contains B. The balls around its points do not.
         a, b = points((0, 0, 0), (6, 0, 0)), points((3, 4, 0))
-        self.exactly(1, a, b, free(), free(), AROUND_A)
+        self.pair_bound_is(1, a, b, free(), free(), AROUND_A)
         files = a, certificate(a), b, certificate(b)
         def make(steps, margin): return two(a, b, free(), free(), steps, margin)
         for steps in (b"\0" + AROUND_A + AROUND_A, b"\0" + AROUND_B + AROUND_A, AROUND_B):
@@ -1185,19 +1194,19 @@ class Balls(Case):
                 self.fails("is too near", files, make(ball, 0.5), make(b"\0" + ball + ball, 0.5))
                 steps = [plane, ball] if first else [ball, plane]
                 self.holds(files, make(b"\0" + b"".join(steps), 0.5))
-                why = f"the ball around {'AB'[ball[0] - 6]} of"
-                self.fails(why, files, make(b"\0" + b"".join(reversed(steps)), 0.5))
-        # The same with B split, by step 1.
+                reason = f"the ball around {'AB'[ball[0] - 6]} of"
+                self.fails(reason, files, make(b"\0" + b"".join(reversed(steps)), 0.5))
+        # The same with exchanged bodies: step 1 splits B.
         a, b = b, a
         files = a, certificate(a), b, certificate(b, (0, 1))
         plane = leaf(along(-math.sqrt(0.5), -math.sqrt(0.5), 0))
         for ball in (AROUND_A, AROUND_B):
             self.holds(files, make(b"\1" + plane + ball, 0.5))
             self.fails("is too near", files, make(ball, 0.5), make(b"\1" + ball + plane, 0.5))
-        self.fails("can not be split", files, make(b"\0" + AROUND_A + AROUND_A, 0.5))
+        self.fails("cannot be split", files, make(b"\0" + AROUND_A + AROUND_A, 0.5))
 
     def test_only_the_part_counts(self):
-        # Only the two parts of the entry count, not the whole bodies.
+        # Only the two nodes of the entry count, not the whole bodies.
         a, b = points((0, 0, 0), (100, 0, 0)), points((0, 8, 0), (100, -9, 0))
         files = a, certificate(a), b, certificate(b)
         quarters = b"\0" + (b"\1" + AROUND_A + AROUND_B) + (b"\1" + AROUND_B + AROUND_A)
@@ -1227,7 +1236,7 @@ class Balls(Case):
         for k, around in enumerate("ABA"):
             margins = [0.99, 1.99, 2.99]
             margins[k] += 0.02
-            self.fails(f"the ball around {around} of pair {k} is too near the other part", files, make(margins, steps))
+            self.fails(f"the ball around {around} of pair {k} is too near the other node", files, make(margins, steps))
         # A body has no distance from itself.
         for pair in ((0, 0), (1, 1)):
             for step in (AROUND_A, AROUND_B):
@@ -1237,7 +1246,7 @@ class Balls(Case):
 class Pairs(Case):
     def setUp(self):
         self.links = [free(), free(p=(0, 0, 1)), free(p=(0, 0, 3), v=(0, 0, -0.5))]
-        ball = thick(FLAT, 0.25)
+        ball = with_radii(FLAT, 0.25)
         self.bodies = [(FLAT, 1), (FLAT, 2), (ball, 3)]
         self.M = FLAT, FLAT_TREE, ball, certificate(ball)
 
@@ -1259,21 +1268,21 @@ class Pairs(Case):
         self.holds(self.M, self.make(pairs, steps[0] + split_time(leaf(Z), leaf(Z)) + steps[2]))
 
     def test_an_axis_turns_with_bodies_of_its_pair(self):
-        self.links[2] = turns(beta=0.125, p=(0, 0, 3))
+        self.links[2] = revolute(beta=0.125, p=(0, 0, 3))
         pairs = [(0, 1, 0.99), (1, 2, 1.7), (0, 2, 2.7)]
         self.holds(self.M, self.make(pairs, leaf(Z, 1) + leaf(Z, 2) + leaf(Z, 2)))
-        self.links[2] = turns((1, 0, 0), -0.5, 0.125, p=(0, 0, 3))
+        self.links[2] = revolute((1, 0, 0), -0.5, 0.125, p=(0, 0, 3))
         self.fails("pair 1 apart", self.M, self.make(pairs, leaf(Z, 1) + leaf(Z, 2) + leaf(Z, 2)))
 
     def test_witness_of_a_pair(self):
         pairs, steps, corner = [(0, 1, 0.99), (1, 2, 1.24)], leaf(Z) * 2, (0, (WHOLE, 0, 0))
         # The gaps are 1 and 2 - 0.5 t. The radius of one body leaves 1.75 - 0.5 t of the second gap.
         for time in (0.0, 0.5, 1.0):
-            need = 2 - 0.5 * time - 1.24 - 0.25
+            min_tolerance = 2 - 0.5 * time - 1.24 - 0.25
             self.holds(self.M, self.make(pairs, steps, witness=(0, time, 0.011, corner, corner)),
-                       self.make(pairs, steps, witness=(1, time, need + 0.001, corner, corner)))
+                       self.make(pairs, steps, witness=(1, time, min_tolerance + 0.001, corner, corner)))
             self.fails("too far apart", self.M, self.make(pairs, steps, witness=(0, time, 0.009, corner, corner)),
-                       self.make(pairs, steps, witness=(1, time, need - 0.001, corner, corner)))
+                       self.make(pairs, steps, witness=(1, time, min_tolerance - 0.001, corner, corner)))
         self.fails("no such pair", self.M, self.make(pairs, steps, witness=(2, 0.5, 9.0, corner, corner)))
         self.fails("no such pair", self.M, self.make([], b"", witness=(0, 0.5, 9.0, corner, corner)))
 
@@ -1303,15 +1312,15 @@ class Parts(Case):
 
     def test_moved_by_one_unit(self):
         # The gaps are exactly 0.25. Moving a corner by one unit in the last place makes the gap smaller.
-        exact = math.nextafter(0.25, 0)
+        checker_links = math.nextafter(0.25, 0)
         steps = b"\0" + leaf(X) + leaf(Y)
-        self.holds(*self.notch(steps, margin=exact))
+        self.holds(*self.notch(steps, margin=checker_links))
         for i, axis in ((0, 0), (2, 0), (0, 1)):
             vertices = [[-0.75, -0.75, 0], [-0.5, -0.75, 0], [-0.75, -0.5, 0]]
             vertices[i][axis] = math.nextafter(-0.75, -1)
             self.b = mesh(vertices, [(0, 1, 2)])
             self.cb = certificate(self.b)
-            self.fails("does not prove", *self.notch(steps, margin=exact))
+            self.fails("does not prove", *self.notch(steps, margin=checker_links))
 
     def test_order(self):
         steps = b"\0" + leaf(X) + leaf(Y), b"\0" + leaf(Y) + leaf(X)
@@ -1320,7 +1329,7 @@ class Parts(Case):
             self.fails("does not prove", *self.notch(wrong, certificate(self.a, order)))
 
     def test_halves(self):
-        # The first part of three triangles has one. The point 0 is left of B, and all others are right of it.
+        # The first child of three triangles has one. The point 0 is left of B, and all others are right of it.
         a = points(*[(i, i * i, 0) for i in range(6)])
         left, right = leaf(X), leaf(minus(X))
         for order, steps in ((range(6), b"\0\0" + left + right + right),
@@ -1352,26 +1361,26 @@ class Parts(Case):
                     self.fails("", files, make(0.49))
 
     def test_any_tree_is_as_good(self):
-        # Without splits in the proof, only the bounds of heights and distances split parts. B is inside most boxes.
+        # Without splits in the proof, only the bounds of projections and distances split nodes. B is inside most boxes.
         rng, a = random.Random(9), points((-3, -4, 0), (6, 8, 0.5), (0, 2, 0), (0, 7, 1), (1, -3, 0), (-9, 1, 0.25))
         orders = list(itertools.permutations(range(6)))
         for _ in range(40):
             files = a, certificate(a, tree=random_tree(rng, rng.choice(orders))), POINT, POINT_TREE
-            for step, height, far, why in ((AROUND_B, 0, 2, "is too near"), (leaf(Z), 4, 3, "does not prove"),
+            for step, height, distance, reason in ((AROUND_B, 0, 2, "is too near"), (leaf(Z), 4, 3, "does not prove"),
                                            (leaf(minus(Z)), -4, 4, "does not prove")):
                 def make(margin): return two(a, POINT, free(), free(p=(0, 0, height)), step, margin)
-                self.holds(files, make(math.nextafter(far, 0)))
-                self.fails(why, files, make(float(far)))
+                self.holds(files, make(math.nextafter(distance, 0)))
+                self.fails(reason, files, make(float(distance)))
 
     def test_balls_around_parts_of_uneven_trees(self):
         # The ball around 0 and 1 has radius 1 and center (1, 0, 0). With 2 it has radius 3 and center (3, 0, 0).
         a, b = points((0, 0, 0), (2, 0, 0), (6, 0, 0)), points((1, 6, 0))
         for tree, first, second in (((0, (1, 2)), math.sqrt(37), math.sqrt(45) - 2), (((0, 1), 2), 5, math.sqrt(61)),
                                     ((2, (0, 1)), math.sqrt(61), 5), (((0, 2), 1), math.sqrt(40) - 3, math.sqrt(37))):
-            files, far = (a, certificate(a, tree=tree), b, certificate(b)), min(first, second)
+            files, distance = (a, certificate(a, tree=tree), b, certificate(b)), min(first, second)
             def make(steps, margin): return two(a, b, free(), free(), steps, margin)
-            self.holds(files, make(b"\0" + AROUND_A + AROUND_A, far - 1e-9))
-            self.fails("is too near", files, make(b"\0" + AROUND_A + AROUND_A, far + 1e-9))
+            self.holds(files, make(b"\0" + AROUND_A + AROUND_A, distance - 1e-9))
+            self.fails("is too near", files, make(b"\0" + AROUND_A + AROUND_A, distance + 1e-9))
             self.holds(files, make(AROUND_A, math.sqrt(40) - 3 - 1e-9))
             self.fails("is too near", files, make(AROUND_A, math.sqrt(40) - 3 + 1e-9))
 
@@ -1381,42 +1390,42 @@ class Parts(Case):
             for _ in range(5):
                 data = mesh([(i, 0, 0) for i in range(count + 2)], [(i, i + 1, i + 2) for i in range(count)])
                 tree = random_tree(rng, rng.sample(range(count), count))
-                parts, read = triangles_of(tree), so.Tree(*self.files(data, certificate(data, tree=tree)))
-                self.assertEqual((len(read.spans), len(read.halves)), (2 * count - 1, 2 * count - 1))
-                self.assertEqual([[t[0] for t in read.triangles[i:j]] for i, j in read.spans], parts)
-                def same(part, tree):   # compares the parts of a part with the pair of trees
-                    self.assertEqual(parts[part], triangles_of(tree)[0])
-                    self.assertEqual(len(read.halves[part]), 0 if isinstance(tree, int) else 2)
-                    for half, child in zip(read.halves[part], () if isinstance(tree, int) else tree):
-                        same(half, child)
-                same(0, tree)
+                nodes, read = triangles_of(tree), so.Tree(*self.files(data, certificate(data, tree=tree)))
+                self.assertEqual((len(read.ranges), len(read.children)), (2 * count - 1, 2 * count - 1))
+                self.assertEqual([[t[0] for t in read.triangles[i:j]] for i, j in read.ranges], nodes)
+                def assert_same_children(node, tree):   # compares the children of a node with the pair of trees
+                    self.assertEqual(nodes[node], triangles_of(tree)[0])
+                    self.assertEqual(len(read.children[node]), 0 if isinstance(tree, int) else 2)
+                    for half, child in zip(read.children[node], () if isinstance(tree, int) else tree):
+                        assert_same_children(half, child)
+                assert_same_children(0, tree)
 
     def test_deep_trees(self):
-        # The points are around B, which is inside the box of each part with more than one point.
+        # The points are around B, which is inside the box of each node with more than one point.
         def around(n): return points(*[((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))[i % 4] for i in range(n)])
         a = around(91)
         for to in (0, 1):
-            tree = certificate(a, numbers=leaning(91, to))
+            tree = certificate(a, numbers=one_sided_numbers(91, to))
             files = a, tree, POINT, POINT_TREE
             def make(steps, height=0, margin=math.nextafter(1, 0)):
                 return two(a, POINT, free(), free(p=(0, 0, height)), steps, margin)
             self.holds(files, make(AROUND_B), make(leaf(Z), 1), make(AROUND_A, 2.5))
             self.fails("is too near", files, make(AROUND_B, margin=1.0), make(AROUND_A))
             self.fails("does not prove", files, make(leaf(Z), 1, 1.0))
-            # The proof has all 90 splits, down to points. Each first part is a point, or all splits come first.
-            sides = [leaf(axis) for axis in (minus(X), X, minus(Y), Y)]
-            each = [sides[i % 4] for i in range(91)]
+            # The proof has all 90 splits, down to points. Each first child is a point, or all splits come first.
+            leaves = [leaf(axis) for axis in (minus(X), X, minus(Y), Y)]
+            each = [leaves[i % 4] for i in range(91)]
             steps = b"".join(b"\0" + x for x in each[:-1]) + each[-1] if to == 0 else b"\0" * 90 + b"".join(each)
             self.holds(files, make(steps, margin=0.99))
             self.fails("does not prove", files, make(steps, margin=1.0), make(steps.replace(each[2], each[1])))
             # Far deeper trees are read but not checked. Later proofs are still checked.
             deep = around(5001)
-            files = deep, certificate(deep, numbers=leaning(5001, to)), *files
+            files = deep, certificate(deep, numbers=one_sided_numbers(5001, to)), *files
             for bodies, split in (((deep, POINT), b"\0"), ((POINT, deep), b"\1"), ((deep, deep), b"\0")):
                 all_steps = *(AROUND_A, AROUND_B, leaf(Z)), split + AROUND_A * 2, split + leaf(Z) * 2
-                all_made = [two(*bodies, free(), free(p=(0, 0, 2.5)), steps) for steps in all_steps]
-                lines = self.run_files(files, *all_made, make(AROUND_B))
-                self.assertEqual(lines[:-1], [["unverifiable", "a tree is too deep"]] * len(all_made))
+                proofs = [two(*bodies, free(), free(p=(0, 0, 2.5)), steps) for steps in all_steps]
+                lines = self.run_files(files, *proofs, make(AROUND_B))
+                self.assertEqual(lines[:-1], [["unverifiable", "a tree is too deep"]] * len(proofs))
                 self.assertEqual(lines[-1][0], "holds")
             self.holds(files, proof([], [(deep, 0), (POINT, 0)], [], b""))
 
@@ -1444,16 +1453,16 @@ class Parts(Case):
                 run("each triangle once", [*numbers[:-1], other])
         run("each triangle once", [1, 3, 1, 1, 2])
         run("each triangle once", [1, 2, 1, 2, 2])
-        # The number of triangles of a first part is at least 1, and less than all.
+        # The number of triangles of a first child is at least 1, and less than all.
         for bad in (0, 3, 4, 5, 1 << 31, (1 << 32) - 1):
             run("byte 40", [bad, *good[0][1:]])
-            run("a part has no triangle", [bad, *good[0][1:]])
-            run("a part has no triangle", [bad, *good[2][1:]])
+            run("a node has no triangle", [bad, *good[0][1:]])
+            run("a node has no triangle", [bad, *good[2][1:]])
         for bad in (0, 2, 3, 1 << 31, (1 << 32) - 1):
             run("byte 48", [1, 0, bad, 1, 2])
             run("byte 44", [2, bad, 0, 1, 2])
-            run("a part has no triangle", [1, 0, bad, 1, 2])
-            run("a part has no triangle", [2, bad, 0, 1, 2])
+            run("a node has no triangle", [1, 0, bad, 1, 2])
+            run("a node has no triangle", [2, bad, 0, 1, 2])
         # A single triangle only has its index.
         a = points((-1, 0, 0))
         run("", [0])
@@ -1472,14 +1481,14 @@ class Parts(Case):
                 (mesh([(0, 0, 0)], [(0, 0, 0)]), "another mesh", "broken")):
             made = two(data, self.b, *self.rest, b"\0" + leaf(X) + leaf(Y))
             self.fails(reason, (data, *files[1:]), made, verdict=verdict)
-            self.fails("is not given", (data, *files[1:]), good, verdict="unverifiable")
+            self.fails("is among the arguments", (data, *files[1:]), good, verdict="unverifiable")
 
     def test_meshes_are_found_by_digest(self):
         (a, ca, b, cb), good = self.notch(b"\0" + leaf(X) + leaf(Y))
         self.holds((b, cb, a, ca), good)
         self.holds((FLAT, FLAT_TREE, b, cb, a, ca, b, cb), good)
         self.holds((b, cb, FLAT, b"nothing", a, ca), good)   # a mesh that is not used
-        self.fails("is not given", (a, ca), good, verdict="unverifiable")
+        self.fails("is among the arguments", (a, ca), good, verdict="unverifiable")
         self.fails("another mesh", (a, cb, b, ca), good)
         # Only the digests are exchanged, so A is the small triangle, which cannot be split.
         links, digests = HEADER - 8 - 16 - 72, [hashlib.sha256(m).digest() for m in (a, b)]
@@ -1530,7 +1539,7 @@ class Contact(Case):
 
     def test_radii(self):
         for radii in ((0.004, 0.004), (0.008, 0.0)):
-            a, b = (thick(FLAT, r) for r in radii)
+            a, b = (with_radii(FLAT, r) for r in radii)
             files = a, certificate(a), b, certificate(b)
             def make(tolerance):
                 contact = 0.98, tolerance, self.corner, self.corner
@@ -1540,7 +1549,7 @@ class Contact(Case):
 
     def test_radius_of_a_point(self):
         # The radius has the weights of the point: 1/2, 1/8 and 3/8 of the radii 0.25, 1 and 0.5 are 0.4375 in total.
-        a = thick(FLAT, 0.25, 1.0, 0.5)
+        a = with_radii(FLAT, 0.25, 1.0, 0.5)
         files, weights = (a, certificate(a), FLAT, FLAT_TREE), (WHOLE >> 1, WHOLE >> 3, 3 * WHOLE >> 3)
         def make(tolerance, swap, more=0):
             bodies, p = ((FLAT, a), (0, 0, 1.5)) if swap else ((a, FLAT), (0, 0, 1.5))
@@ -1570,25 +1579,26 @@ class Contact(Case):
         # The bodies are free until 0.98, and meet at 1. Then B is below A, at an increasing distance.
         w = self.corner
         for tau in (math.nextafter(0.98, 1), 0.985, 1.5, 100.0):
-            need = abs(1 - tau) - 0.01
-            self.holds(*self.flat((tau, need + 1e-4, w, w), duration=0.98))
-            self.fails("too far apart", *self.flat((tau, need - 1e-4, w, w), duration=0.98))
-            # Nothing is stated about the time from T to the witness. Everything until T is proven.
-            self.fails("does not prove", *self.flat((tau, need + 1e-4, w, w), duration=0.9901))
-            self.fails("file ends", *self.flat((tau, need + 1e-4, w, w), duration=0.98, steps=b""))
+            min_tolerance = abs(1 - tau) - 0.01
+            self.holds(*self.flat((tau, min_tolerance + 1e-4, w, w), duration=0.98))
+            self.fails("too far apart", *self.flat((tau, min_tolerance - 1e-4, w, w), duration=0.98))
+            # The statement has no claim about the time between T and the witness. Everything until T is proven.
+            self.fails("does not prove", *self.flat((tau, min_tolerance + 1e-4, w, w), duration=0.9901))
+            self.fails("file ends", *self.flat((tau, min_tolerance + 1e-4, w, w), duration=0.98, steps=b""))
         for duration in (0.0, 0.98):
             self.holds(*self.flat((1.0, 0.0, w, w), duration=duration))
             self.fails("too far apart", *self.flat((1.02, 0.0, w, w), duration=duration))
-        # The time of a witness is at most the unit of time. No link turns too far until then.
+        # The time of a witness is at most the unit of time. No link rotates too far until then.
         self.holds(*self.flat((4.0, 3.0, w, w), duration=0.98, units=(-40, 2)))
         for tau in (math.nextafter(4, 5), 1e9, 1e300):
             files, made = self.flat((tau, 1e301, w, w), duration=0.98, units=(-40, 2))
             self.fails("the unit of time is less than the time", files, made, verdict="unverifiable")
-        for spin in (free(p=(0, 0, 1), w=(0, 0, 4)), turns(p=(0, 0, 1), beta=-4.0)):
+        for spin in (free(p=(0, 0, 1), w=(0, 0, 4)), revolute(p=(0, 0, 1), beta=-4.0)):
             self.links = free(), spin
             self.holds(*self.flat((128.0, 1.0, w, w), duration=0.5))
             for tau in (math.nextafter(128, 129), 1e9, 1e300):
-                self.fails("a link turns too far", *self.flat((tau, 1e301, w, w), duration=0.5), verdict="unverifiable")
+                files, made = self.flat((tau, 1e301, w, w), duration=0.5)
+                self.fails("a link rotates too far", files, made, verdict="unverifiable")
 
     def test_a_clearance(self):
         # B is on an arm, and moves down and up again. It is lowest at half of the time.
@@ -1597,7 +1607,7 @@ class Contact(Case):
         files = FLAT, FLAT_TREE, b, certificate(b)
         def make(tau, tolerance, margin=0.99):
             contact = tau, tolerance, self.corner, self.corner
-            return two(FLAT, b, *links, halves(3, lambda _: leaf(Z)), margin, contact)
+            return two(FLAT, b, *links, split_evenly(3, lambda _: leaf(Z)), margin, contact)
         self.holds(files, make(0.5, 0.0101))
         self.fails("too far apart", files, make(0.3, 0.0101), make(0.5, 0.0099), make(0.0, 0.0101), make(1.0, 0.0101))
         self.fails("does not prove", files, make(0.5, 0.0101, 1.0001))
@@ -1618,10 +1628,10 @@ class Contact(Case):
         weights, corners = (WHOLE >> 1, WHOLE >> 3, 3 * WHOLE >> 3), [(0, 0, 0), (4, 0, 0), (0, 4, 0)]
         for order in itertools.permutations(range(3)):
             a = mesh([corners[i] for i in order], [(0, 1, 2)])
-            for given in itertools.permutations(weights):
-                files, w = (a, certificate(a), POINT, POINT_TREE), (0, given)
+            for permuted in itertools.permutations(weights):
+                files, w = (a, certificate(a), POINT, POINT_TREE), (0, permuted)
                 made = two(a, POINT, free(), free((0.5, 1.5, 1)), leaf(Z), 0.5, (0.5, 0.5, w, self.corner))
-                if given == tuple(weights[i] for i in order):
+                if permuted == tuple(weights[i] for i in order):
                     self.holds(files, made)
                 else:
                     self.fails("too far apart", files, made)
@@ -1644,7 +1654,7 @@ class Contact(Case):
             self.fails("too far apart", files, make(1 - place))
 
     def test_turning(self):
-        # The tip of a rod turns about z by 1 radian, and ends 0.01 below the plate y = sin 1 + 0.01.
+        # The tip of a rod rotates about z by 1 radian, and ends 0.01 below the plate y = sin 1 + 0.01.
         a, y = rod(), math.sin(1.0) + 0.01
         b = mesh([(-9, 0, -9), (9, 0, -9), (0, 0, 9)], [(0, 1, 2)])
         files = a, certificate(a), b, certificate(b)
@@ -1652,32 +1662,33 @@ class Contact(Case):
         wx = round((0.25 + math.cos(1.0) / 18) * WHOLE)
         wb = 0, (WHOLE // 2 - wx, wx, WHOLE // 2)
         wa = 0, (0, WHOLE, 0)
-        kinds = lambda w: free(w=(0, 0, w)), lambda w: turns((0, 0, w), beta=1.0)
+        kinds = lambda w: free(w=(0, 0, w)), lambda w: revolute((0, 0, w), beta=1.0)
         for frame, kind in itertools.product((0, 2), kinds):
-            def make(time=1.0, steps=halves(4, lambda _: leaf(Y, frame)), tolerance=0.006, wa=wa, w=1.0):
+            def make(time=1.0, steps=split_evenly(4, lambda _: leaf(Y, frame)), tolerance=0.006, wa=wa, w=1.0):
                 return two(a, b, kind(w), free(p=(0, y, 0)), steps, 0.005, (time, tolerance, wa, wb), duration=time)
             self.holds(files, make())
             self.fails("too far apart", files, make(tolerance=0.004), make(time=0.9), make(w=-1.0),
                        make(wa=(0, (WHOLE >> 1, WHOLE >> 1, 0))))
             self.fails("does not prove", files, make(time=1.02, tolerance=0.02),
-                       make(steps=halves(1, lambda _: leaf(Y))))
-            self.fails("file ends", files, make(steps=halves(4, lambda _: leaf(Y))[:-7]))
+                       make(steps=split_evenly(1, lambda _: leaf(Y))))
+            self.fails("file ends", files, make(steps=split_evenly(4, lambda _: leaf(Y))[:-7]))
 
     def test_chains(self):
         # Links are random trees. The distance of the witness points is computed in binary64.
         rng, a, b = random.Random(4), points((1, 0, 2, 0.25), (5, 5, 5)), points((0, -1, 1, 0.5))
         files = a, certificate(a, [1, 0]), b, certificate(b)
         for _ in range(25):
-            far = 0
-            while far < 1:                          # outside the margin and the radii
+            distance = 0
+            while distance < 1:                          # outside the margin and the radii
                 links, tau, ends = random_links(rng, 5), rng.random(), [rng.randint(0, 5) for _ in "AB"]
-                far = flength(fsub(where(links, ends[0], (1, 0, 2), tau), where(links, ends[1], (0, -1, 1), tau)))
+                on_a, on_b = in_world(links, ends[0], (1, 0, 2), tau), in_world(links, ends[1], (0, -1, 1), tau)
+                distance = flength(fsub(on_a, on_b))
             def make(tolerance):
                 corner = WHOLE, 0, 0
                 return proof(links, [(a, ends[0]), (b, ends[1])], [(0, 1, 0.125)], leaf(Z), 1.0,
                              (0, tau, tolerance - 0.875, (1, corner), (0, corner)))
-            self.fails("too far apart", files, make(far - 1e-9))
-            self.assertNotIn("too far apart", self.run_files(files, make(far + 1e-9))[0][1])
+            self.fails("too far apart", files, make(distance - 1e-9))
+            self.assertNotIn("too far apart", self.run_files(files, make(distance + 1e-9))[0][1])
 
 
 class Arithmetic(Case):
@@ -1701,11 +1712,11 @@ class Arithmetic(Case):
 
     def test_intervals(self):
         rng = random.Random(1)
-        def some():
+        def random_interval():
             a, b = (Fraction(rng.randint(-1000, 1000), rng.randint(1, 999)) for _ in range(2))
             return min(a, b), max(a, b)
         for _ in range(300):
-            (a, b), (c, d) = some(), some()
+            (a, b), (c, d) = random_interval(), random_interval()
             for x in (a, b, c, d):
                 lo, hi = so.fix(x)
                 self.assertTrue(lo <= x * so.ONE <= hi and hi - lo <= 1)
@@ -1721,19 +1732,19 @@ class Arithmetic(Case):
 
 class Random(Case):
     def scene(self, rng, speed=1.0, size=0.5, count=5):
-        """Returns random links and two bodies, as the checker has them, and the inputs: links, meshes and trees."""
+        """Returns random links and two bodies, both as inputs and as objects of the checker."""
         def vec(s): return tuple(rng.uniform(-s, s) for _ in range(3))
         links, bodies, files = random_links(rng, count, speed), [], []
-        exact, ends = self.exact_links(links), [rng.randint(0, count) for _ in range(2)]
+        checker_links, ends = self.exact_links(links), [rng.randint(0, count) for _ in range(2)]
         for end in ends:
             shift = vec(2)
             radii = [rng.choice((0.0, 0.0625, rng.uniform(0, 0.25))) * 2 * size for _ in range(9)]
             data = mesh([(*fadd(vec(size), shift), r) for r in radii],
                         [tuple(rng.sample(range(9), 3)) for _ in range(6)])
             tree = random_tree(rng, rng.sample(range(6), 6))
-            bodies.append(so.Body(so.Tree(*self.files(data, certificate(data, tree=tree))), exact[end], 0))
+            bodies.append(so.Body(so.Tree(*self.files(data, certificate(data, tree=tree))), checker_links[end], 0))
             files.append((data, tree))
-        return links, exact, ends, bodies, files
+        return links, checker_links, ends, bodies, files
 
     def corners(self, data, triangles):
         """Returns the corners of some triangles, in the frame of the link, with radii."""
@@ -1741,14 +1752,14 @@ class Random(Case):
         corners = [struct.unpack_from("<3I", data, 8 + 36 * 8 + 12 * t) for t in triangles]
         return [vertices[4 * i:4 * i + 4] for three in corners for i in three]
 
-    def parts(self, file):
-        """Returns the corners of each part, in the order of the certificate."""
+    def nodes(self, file):
+        """Returns the corners of each node, in the order of the certificate."""
         data, tree = file
         return [self.corners(data, triangles) for triangles in triangles_of(tree)]
 
     def axis(self, rng, links, ends, corners, t):
         """Returns a direction roughly from A to B, in 2^-50."""
-        a, b = ([where(links, end, y[:3], t) for y in c] for end, c in zip(ends, corners))
+        a, b = ([in_world(links, end, y[:3], t) for y in c] for end, c in zip(ends, corners))
         n = fsub(fscale(1 / len(b), fadd(*b)), fscale(1 / len(a), fadd(*a)))
         n = fadd(fscale(1 / (flength(n) or 1), n), [rng.gauss(0, 0.2) for _ in range(3)])
         return along(*fscale(1 / flength(n), n))
@@ -1757,8 +1768,8 @@ class Random(Case):
         """Computes P, P', Omega, K and K' by the README, from velocities in the world."""
         t, h = (t0 + t1) / 2, (t1 - t0) / 2
         def chain(i): return chain(links[i - 1].on) + [i] if i else [0]
-        def at(i): return where(links, i, center(links, i), t)
-        def joint(i):   # the turn and the rate of the arm, in the world
+        def at(i): return in_world(links, i, center(links, i), t)
+        def joint(i):   # the rotation vector and the rate of the offset, in the world
             x = links[i - 1]
             v, a = (rotate(x.q, u) if x.axes else u for u in (x.v, x.a))
             return [fscale(h * x.beta, direction(links, x.on, u, t)) for u in (a, v)]
@@ -1768,11 +1779,11 @@ class Random(Case):
                 return [0, 0, 0]
             parent = links[i - 1].on
             return fadd(velocity(parent), fcross(turn(parent), fsub(at(i), at(parent))), joint(i)[1])
-        here, there = chain(frame), chain(end)
-        common = sum(i == j for i, j in zip(here, there))
-        way = [(-1, i) for i in reversed(here[common:])] + [(1, i) for i in there[common:]]
+        frame_chain, link_chain = chain(frame), chain(end)
+        common = sum(i == j for i, j in zip(frame_chain, link_chain))
+        path = [(-1, i) for i in reversed(frame_chain[common:])] + [(1, i) for i in link_chain[common:]]
         k, theta = 0, 0
-        for sign, i in way:
+        for sign, i in path:
             angle, (arm, m) = flength(joint(i)[0]), map(flength, (fsub(at(i), at(links[i - 1].on)), joint(i)[1]))
             carried = theta if sign > 0 else theta + angle   # theta before the joint, or after it
             k, theta = k + carried ** 2 * (arm + m) + 2 * carried * m, theta + angle
@@ -1781,85 +1792,85 @@ class Random(Case):
         return p, slope, fsub(turn(end), turn(frame)), k, theta ** 2
 
     def readme(self, links, end, corners, side, n, d, frame, t0, t1):
-        """Returns the least height by the README."""
-        (p, slope, omega, k, bend), t = self.motion(links, end, frame, t0, t1), (t0 + t1) / 2
-        center_at = where(links, end, center(links, end), t)
-        z = [(fsub(where(links, end, y, t), center_at), ball) for *y, ball in corners]
-        k, tilt = k + bend * max(flength(y) for y, _ in z), fcross(n, omega)
+        """Returns the least signed distance by the README."""
+        (p, slope, omega, k, k_prime), t = self.motion(links, end, frame, t0, t1), (t0 + t1) / 2
+        center_at = in_world(links, end, center(links, end), t)
+        z = [(fsub(in_world(links, end, y, t), center_at), ball) for *y, ball in corners]
+        k, tilt = k + k_prime * max(flength(y) for y, _ in z), fcross(n, omega)
         return min(side * (fdot(n, p) + s * fdot(n, slope) - d) - k / 2
                    + min(side * fdot(fadd(n, fscale(s, tilt)), y) - ball for y, ball in z) for s in (1, -1))
 
     def readme_ball(self, links, end, corners, frame, t0, t1):
         """Returns the center of the README's ball at the middle, in the other body's frame, and its radius."""
-        (_, slope, omega, k, bend), t = self.motion(links, end, frame, t0, t1), (t0 + t1) / 2
+        (_, slope, omega, k, k_prime), t = self.motion(links, end, frame, t0, t1), (t0 + t1) / 2
         *ranges, radii = zip(*corners)
         g = [(min(c) + max(c)) / 2 for c in ranges]
-        z = fsub(where(links, end, g, t), where(links, end, center(links, end), t))
+        z = fsub(in_world(links, end, g, t), in_world(links, end, center(links, end), t))
         r = max(flength(fsub(y, g)) for *y, _ in corners) + max(radii)
-        m = flength(fadd(slope, fcross(omega, z))) + (k + bend * flength(z)) / 2
-        return self.seen(links, frame, where(links, end, g, t), t), r + m
+        m = flength(fadd(slope, fcross(omega, z))) + (k + k_prime * flength(z)) / 2
+        return self.point_in_frame(links, frame, in_world(links, end, g, t), t), r + m
 
-    def seen(self, links, frame, x, t):
+    def point_in_frame(self, links, frame, x, t):
         """Transforms a point of the world to the frame of a link, relative to its center."""
-        x = fsub(x, where(links, frame, center(links, frame), t))
+        x = fsub(x, in_world(links, frame, center(links, frame), t))
         return [fdot(x, direction(links, frame, e, t)) for e in UNIT3]
 
     def test_bound_is_below_samples_and_close(self):
-        rng, close = random.Random(7), 0
+        rng, tight_count = random.Random(7), 0
         for trial in range(120):
-            links, exact, ends, bodies, files = self.scene(rng)
+            links, checker_links, ends, bodies, files = self.scene(rng)
             frame = (0, *ends)[trial % 3]
-            parts = [rng.randrange(11) for _ in range(2)]
-            corners = [self.parts(file)[p] for file, p in zip(files, parts)]
+            nodes = [rng.randrange(11) for _ in range(2)]
+            corners = [self.nodes(file)[p] for file, p in zip(files, nodes)]
             k = rng.randrange(9)
             i = rng.randrange(1 << k)
             t0, t1 = i << 60 - k, i + 1 << 60 - k
             axis, d = self.axis(rng, links, ends, corners, (t0 + t1) / 2 ** 61), rng.uniform(-3, 3)
             n, span = [c / ONE for c in axis], (t0 / 2 ** 60, t1 / 2 ** 60)
-            for body, end, c, part, side in zip(bodies, ends, corners, parts, (-1, 1)):
+            for body, end, c, node, side in zip(bodies, ends, corners, nodes, (-1, 1)):
                 plane = [(side * x << so.F - 50,) * 2 for x in axis], int(side * d * so.ONE)
-                proven = so.height(body, part, exact[frame], *stretch(t0, t1), *plane) / so.ONE
-                least = least_height(links, end, c, side, n, d, frame, *span, 16)
+                proven = so.distance_bound(body, node, checker_links[frame], *middle_and_half(t0, t1), *plane) / so.ONE
+                least = least_distance(links, end, c, side, n, d, frame, *span, 16)
                 self.assertLessEqual(proven, least + 1e-9)
                 self.assertAlmostEqual(proven, self.readme(links, end, c, side, n, d, frame, *span), 9)
                 if k == 8:
                     self.assertLess(least - proven, 0.01)
-                    close += 1
-        self.assertGreater(close, 10)
+                    tight_count += 1
+        self.assertGreater(tight_count, 10)
 
     def test_ball_is_around_samples_and_close(self):
-        rng, close = random.Random(8), 0
+        rng, tight_count = random.Random(8), 0
         for trial in range(120):
-            links, exact, ends, bodies, files = self.scene(rng)
+            links, checker_links, ends, bodies, files = self.scene(rng)
             (body, other), (end, frame) = bodies, ends
-            part, others = rng.randrange(11), rng.randrange(11)
-            corners, k = self.parts(files[0])[part], rng.randrange(9)
+            node, other_node = rng.randrange(11), rng.randrange(11)
+            corners, k = self.nodes(files[0])[node], rng.randrange(9)
             i = rng.randrange(1 << k)
             t0, t1 = i << 60 - k, i + 1 << 60 - k
             span = t0 / 2 ** 60, t1 / 2 ** 60
-            with unittest.mock.patch.object(so.Body, "is_beyond", autospec=True) as asked:
+            with unittest.mock.patch.object(so.Body, "is_beyond", autospec=True) as is_beyond_mock:
                 margin = rng.choice((0, rng.randrange(so.ONE)))
-                so.is_beyond_ball(body, part, other, others, *stretch(t0, t1), margin)
-            (told, where_to, point, limit), unit = asked.call_args.args, so.ONE << other.bits
-            self.assertTrue(told is other and where_to == others and all(lo <= hi for lo, hi in point))
+                so.is_beyond_ball(body, node, other, other_node, *middle_and_half(t0, t1), margin)
+            (other_seen, other_node_seen, point, limit), unit = is_beyond_mock.call_args.args, so.ONE << other.bits
+            self.assertTrue(other_seen is other and other_node_seen == other_node and all(lo <= hi for lo, hi in point))
             self.assertLess(max(hi - lo for lo, hi in point) / unit, 1e-12)
             point, limit = [lo / unit for lo, _ in point], limit / unit - margin / so.ONE
-            want, most = self.readme_ball(links, end, corners, frame, *span)
-            self.assertLess(flength(fsub(point, want)), 1e-9)
-            self.assertAlmostEqual(limit, most, 9)
-            farthest, centers = 0, 0
+            expected, max_margin = self.readme_ball(links, end, corners, frame, *span)
+            self.assertLess(flength(fsub(point, expected)), 1e-9)
+            self.assertAlmostEqual(limit, max_margin, 9)
+            max_distance, max_center_distance = 0, 0
             for j in range(17):
                 t = span[0] + (span[1] - span[0]) * j / 16
                 for *y, ball in corners:
-                    x = self.seen(links, frame, where(links, end, y, t), t)
-                    centers = max(centers, flength(fsub(x, point)))
-                    farthest = max(farthest, flength(fsub(x, point)) + ball)
-            self.assertLessEqual(farthest, limit + 1e-9)
+                    x = self.point_in_frame(links, frame, in_world(links, end, y, t), t)
+                    max_center_distance = max(max_center_distance, flength(fsub(x, point)))
+                    max_distance = max(max_distance, flength(fsub(x, point)) + ball)
+            self.assertLessEqual(max_distance, limit + 1e-9)
             if k == 8 and len(corners) == 3:
                 # The ball adds the largest radius, while the farthest corner may have a smaller one.
-                self.assertLess(limit - centers - max(ball for *_, ball in corners), 0.02)
-                close += 1
-        self.assertGreater(close, 3)
+                self.assertLess(limit - max_center_distance - max(ball for *_, ball in corners), 0.02)
+                tight_count += 1
+        self.assertGreater(tight_count, 3)
 
     def test_is_beyond(self):
         """Compares the distances with the boxes of all triangles, at the least limits that one box does not exceed."""
@@ -1867,54 +1878,54 @@ class Random(Case):
         for _ in range(20):
             _, _, _, bodies, files = self.scene(rng)
             body, center = bodies[0], bodies[0].link.center
-            for part, triangles in enumerate(triangles_of(files[0][1])):
+            for node, triangles in enumerate(triangles_of(files[0][1])):
                 point = [rng.randint(-5 << 52, 5 << 52) << so.F + body.bits - 52 for _ in range(3)]
-                far = []                            # for each triangle: the square of the distance, and the radius
+                distance = []                            # for each triangle: the square of the distance, and the radius
                 for triangle in triangles:
                     corners = self.corners(files[0][0], [triangle])
                     *ranges, radii = [[int(Fraction(x) * (so.ONE << body.bits)) for x in c] for c in zip(*corners)]
                     ranges = [[x - int(c * (so.ONE << body.bits)) for x in r] for r, c in zip(ranges, center)]
                     gaps = [max(min(r) - x, x - max(r), 0) for r, x in zip(ranges, point)]
-                    far.append((sum(x * x for x in gaps), max(radii)))
-                for limit in {math.isqrt(square) - ball + d for square, ball in far for d in (-1, 0, 1)}:
+                    distance.append((sum(x * x for x in gaps), max(radii)))
+                for limit in {math.isqrt(square) - ball + d for square, ball in distance for d in (-1, 0, 1)}:
                     if limit >= 0:
-                        want = all(square > (limit + ball) ** 2 for square, ball in far)
-                        self.assertEqual(body.is_beyond(part, [(x, x) for x in point], limit), want)
-                        counts[want] += 1
+                        expected = all(square > (limit + ball) ** 2 for square, ball in distance)
+                        self.assertEqual(body.is_beyond(node, [(x, x) for x in point], limit), expected)
+                        counts[expected] += 1
                         # The point has an error of 1, so its nearest possible position counts.
-                        wide = body.is_beyond(part, [(x - 1, x + 1) for x in point], limit)
-                        self.assertEqual(wide, want and wide)
+                        is_beyond_with_error = body.is_beyond(node, [(x - 1, x + 1) for x in point], limit)
+                        self.assertEqual(is_beyond_with_error, expected and is_beyond_with_error)
         self.assertGreater(min(counts), 50)
 
     def random_proofs(self, seed, trials, balls, fractions):
-        """Tests random splits and leaves, with margins near those that samples allow. Samples refute no accepted proof.
-        The margins are these fractions of the allowed ones, on both sides. Returns counts by (false, verdict)."""
+        """Tests random splits and leaves. The margins are near the largest margins that the samples allow. Samples refute no accepted proof.
+        The margins are these fractions of the margins that the samples allow. Returns counts by (is false, verdict)."""
         rng, counts = random.Random(seed), {}
         for trial in range(trials):
-            links, exact, ends, bodies, files = self.scene(rng, speed=0.5, size=0.25, count=4)
+            links, checker_links, ends, bodies, files = self.scene(rng, speed=0.5, size=0.25, count=4)
             if ends[0] == ends[1] == 0:
                 continue
             depth, found = rng.randrange(3), []
-            def steps(parts, t0, t1, left):         # parts are trees
+            def steps(nodes, t0, t1, left):         # nodes are trees
                 kind = rng.randrange(3) if left else 3
-                if kind < 2 and not isinstance(parts[kind], int):
+                if kind < 2 and not isinstance(nodes[kind], int):
                     out = bytes([kind])
-                    for p in parts[kind]:
-                        out += steps([p, parts[1]] if kind == 0 else [parts[0], p], t0, t1, left - 1)
+                    for p in nodes[kind]:
+                        out += steps([p, nodes[1]] if kind == 0 else [nodes[0], p], t0, t1, left - 1)
                     return out
                 if kind == 2:
                     middle = (t0 + t1) // 2
-                    return split_time(steps(parts, t0, middle, left - 1), steps(parts, middle, t1, left - 1))
-                corners = [self.corners(data, triangles_of(p)[0]) for (data, _), p in zip(files, parts)]
+                    return split_time(steps(nodes, t0, middle, left - 1), steps(nodes, middle, t1, left - 1))
+                corners = [self.corners(data, triangles_of(p)[0]) for (data, _), p in zip(files, nodes)]
                 span, frame = (t0 / 2 ** 60, t1 / 2 ** 60), rng.randrange(3)
                 if rng.random() < balls:
                     for t in [span[0] + (span[1] - span[0]) * i / 12 for i in range(13)]:
-                        a, b = ([(where(links, end, y, t), ball) for *y, ball in c] for end, c in zip(ends, corners))
+                        a, b = ([(in_world(links, end, y, t), ball) for *y, ball in c] for end, c in zip(ends, corners))
                         found.extend(flength(fsub(x, y)) - p - q for x, p in a for y, q in b)
                     return rng.choice((AROUND_A, AROUND_B))
                 axis = self.axis(rng, links, ends, corners, sum(span) / 2)
                 n, link = [c / ONE for c in axis], (0, *ends)[frame]
-                def least(d): return [least_height(links, end, c, side, n, d, link, *span, 12)
+                def least(d): return [least_distance(links, end, c, side, n, d, link, *span, 12)
                                       for end, c, side in zip(ends, corners, (-1, 1))]
                 below, above = least(0.0)
                 d = round((above - below) / 2 * 2 ** 40) + rng.choice((0, rng.randrange(-1 << 30, 1 << 30)))
@@ -1923,12 +1934,12 @@ class Random(Case):
             made = steps([tree for _, tree in files], 0, 1 << 60, depth + 1)
             least = min(found)
             meshes = [x for data, tree in files for x in (data, certificate(data, tree=tree))]
-            for fraction, less in fractions:
-                margin = least * fraction - less
+            for fraction, decrement in fractions:
+                margin = least * fraction - decrement
                 if margin >= 0:
                     bodies = [(data, end) for (data, _), end in zip(files, ends)]
-                    whole = proof(links, bodies, [(0, 1, margin)], made, units=(-40, 0))
-                    (verdict, reason), = self.run_files(meshes, whole)
+                    proof_bytes = proof(links, bodies, [(0, 1, margin)], made, units=(-40, 0))
+                    (verdict, reason), = self.run_files(meshes, proof_bytes)
                     key = margin > least, verdict
                     counts[key] = counts.get(key, 0) + 1
                     self.assertTrue(verdict == "holds" or "does not prove" in reason or "too near" in reason, reason)
@@ -1946,12 +1957,12 @@ class Random(Case):
         rng = random.Random(3)
         for _ in range(20):
             _, _, _, bodies, files = self.scene(rng)
-            for part, corners in enumerate(self.parts(files[0])):
+            for node, corners in enumerate(self.nodes(files[0])):
                 m = [rng.randint(-9, 9) << so.F - 3 for _ in range(3)]
                 center = bodies[0].link.center
-                want = min(sum(Fraction(c, so.ONE) * (Fraction(y) - z) for c, y, z in zip(m, corner, center))
+                expected = min(sum(Fraction(c, so.ONE) * (Fraction(y) - z) for c, y, z in zip(m, corner, center))
                            - Fraction(corner[3]) for corner in corners)
-                self.assertEqual(Fraction(bodies[0].lowest(part, *m), 1 << so.F + bodies[0].bits), want)
+                self.assertEqual(Fraction(bodies[0].lowest(node, *m), 1 << so.F + bodies[0].bits), expected)
 
 
 class Damage(Case):
@@ -1959,9 +1970,10 @@ class Damage(Case):
         """Tests that damaged files raise no exception, and that damage before the motions or in opcodes is refused."""
         a = mesh([(0, -1, 0, 0.125), (0, 1, 0, 0.0625), (0.125, 0, 0)], [(0, 1, 2)])
         files = a, certificate(a), FLAT, FLAT_TREE
-        links = [slides((0, 1, 0), 0.5, 0.125), turns((1, 0, 0), 0.25, 4.0, p=(0, -0.5, 0), on=1), free(p=(0, 0, 3))]
+        links = [prismatic((0, 1, 0), 0.5, 0.125), revolute((1, 0, 0), 0.25, 4.0, p=(0, -0.5, 0), on=1),
+                 free(p=(0, 0, 3))]
         corner = 0, (WHOLE >> 2, WHOLE >> 3, 5 * WHOLE >> 3)
-        good = proof(links, [(a, 2), (FLAT, 3)], [(0, 1, 0.875)], halves(3, lambda _: leaf(Z)),
+        good = proof(links, [(a, 2), (FLAT, 3)], [(0, 1, 0.875)], split_evenly(3, lambda _: leaf(Z)),
                      witness=(0, 0.25, 4.0, corner, corner))
         good = self.fit(files, good)
         self.holds(files, good)
@@ -1980,10 +1992,10 @@ class Damage(Case):
         for i, (verdict, reason) in enumerate(self.run_files(files, *bad)):
             if i % 64 == 63:                        # the sign bit
                 self.assertIn("is negative", reason)
-        cert = files[1]
-        for i in range(0, len(cert)):
+        tree_certificate = files[1]
+        for i in range(0, len(tree_certificate)):
             for bit in (0, 7):
-                broken = cert[:i] + bytes([cert[i] ^ 1 << bit]) + cert[i + 1:]
+                broken = tree_certificate[:i] + bytes([tree_certificate[i] ^ 1 << bit]) + tree_certificate[i + 1:]
                 (verdict, reason), = self.run_files((a, broken, *files[2:]), good)
                 self.assertEqual(verdict, "broken", (i, reason))
 
@@ -1996,7 +2008,7 @@ class Damage(Case):
         for i, bit in itertools.product(range(9), (0, 1, 2, 3, 8, 31)):
             other = certificate(a, numbers=[*numbers[:i], numbers[i] ^ 1 << bit, *numbers[i + 1:]])
             (verdict, reason), = self.run_files((a, other, POINT, POINT_TREE), made)
-            is_tree = (i, bit) == (0, 0)            # a first part of three triangles is valid
+            is_tree = (i, bit) == (0, 0)            # a first child of three triangles is valid
             self.assertEqual(other == certificate(a, tree=((3, (1, 0)), (4, 2))), is_tree)
             self.assertEqual(verdict, "holds" if is_tree else "broken", (i, bit, reason))
 

@@ -19,9 +19,9 @@ pub use sha256::sha256;
 /// The reason why a check stops without a proof.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// The file is broken: the reason, and the number of bytes read so far.
+    /// The file is broken, or does not prove its statement. Contains the reason, and the number of bytes read so far.
     Broken(&'static str, usize),
-    /// A number is outside the range in which the checker computes. The statement may be true or false.
+    /// A number or the work exceeds a limit of the checker. The statement may be true or false.
     Unverifiable(&'static str),
 }
 
@@ -36,7 +36,7 @@ impl core::fmt::Display for Stop {
 
 impl core::error::Error for Stop {}
 
-/// The value that was read or checked, or the reason why the check stops.
+/// A result with the reason why the check stops.
 type Checked<T> = Result<T, Stop>;
 
 /// Stops the check as unverifiable if the condition is false.

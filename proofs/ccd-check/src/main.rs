@@ -12,7 +12,7 @@ Checks machine-checkable proofs that moving triangle meshes stay apart
 Usage: ccd-check [--mesh MESH BODY]... PROOF...
 
   --mesh MESH BODY   a mesh, and the certificate of its tree
-  PROOF              a certificate of a query; it names its meshes by their digests
+  PROOF              a certificate of a query; it identifies its meshes by their SHA-256 digests
 
 Prints a verdict on each proof: `holds`, `broken` with the reason and the position in the file, or `unverifiable` with the reason.
 Exit code: 0 if all proofs hold, 1 if one does not hold, 2 if a file cannot be read.
@@ -51,7 +51,7 @@ fn run(mut arguments: &[String]) -> Result<bool, String> {
     let mut all_hold = true;
     for name in arguments {
         let proof = read(name)?;
-        // A proof may use only some of the meshes. The other meshes may be outside the range of its unit of length.
+        // A proof may use only some of the meshes. Other meshes may have numbers that are out of range in its unit of length.
         let (mut bodies, mut skipped) = (Vec::new(), None);
         for (mesh, body, name) in &meshes {
             match Body::new(mesh, body, &proof) {

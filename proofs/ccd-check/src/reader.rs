@@ -9,11 +9,11 @@ pub(crate) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Starts to read a file, whose first bytes have to be `signature`.
+    /// Returns a reader of a file, after checking that its first bytes are `signature`.
     pub(crate) fn new(signature: &[u8], bytes: &'a [u8]) -> Checked<Self> {
         let mut reader = Reader { bytes, position: 0 };
-        let is_of_kind = reader.take(signature.len())? == signature;
-        reader.require(is_of_kind, "this is a file of another kind")?;
+        let has_signature = reader.take(signature.len())? == signature;
+        reader.require(has_signature, "this is a file of another kind")?;
         Ok(reader)
     }
 
@@ -22,12 +22,12 @@ impl<'a> Reader<'a> {
         self.require(self.position == self.bytes.len(), "the file has bytes after its end")
     }
 
-    /// Returns the verdict that the file is broken before the current position.
+    /// Returns the error that the file is broken before the current position.
     pub(crate) fn broken(&self, reason: &'static str) -> Stop {
         Stop::Broken(reason, self.position)
     }
 
-    /// Stops the check as broken if the condition is false.
+    /// Returns an error that the file is broken if the condition is false.
     pub(crate) fn require(&self, condition: bool, reason: &'static str) -> Checked<()> {
         condition.then_some(()).ok_or(self.broken(reason))
     }
@@ -68,7 +68,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads a binary64, and rounds it down to a fixed-point number in the unit 2 to the power of `unit`. The result has at most
-    /// `bits` bits before the binary point, and `after` bits behind it.
+    /// `bits` bits before the binary point, and `after` bits after it.
     pub(crate) fn number(&mut self, unit: i64, [bits, after]: [u32; 2]) -> Checked<i64> {
         let binary64 = self.unsigned(8)? as i64;
         let exponent = binary64 >> 52 & 0x7ff;

@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 
 /// Returns the SHA-256 digest of bytes.
 pub fn sha256(bytes: &[u8]) -> [u8; 32] {
-    // The initial state is the first 32 bits of the fractional parts of the square roots of the first 8 primes. The constants
-    // `k` are those of the cube roots of the first 64 primes.
+    // The initial state: the first 32 bits of the fractional parts of the square roots of the first 8 primes. The constants `k`: the
+    // first 32 bits of the fractional parts of the cube roots of the first 64 primes.
     let mut state = [2u128, 3, 5, 7, 11, 13, 17, 19].map(|prime| (prime << 64).isqrt() as u32);
     let primes = (2u128..).filter(|n| (2..*n).all(|divisor| n % divisor > 0));
     let bits = || (0..35).rev().map(|bit| 1u128 << bit);
@@ -18,7 +18,7 @@ pub fn sha256(bytes: &[u8]) -> [u8; 32] {
     padded.extend((8 * bytes.len() as u64).to_be_bytes());
     for block in padded.chunks(64) {
         let mut w: Vec<u32> = block.as_chunks().0.iter().map(|&bytes| u32::from_be_bytes(bytes)).collect();
-        let before = state;
+        let old_state = state;
         for t in 0..64 {
             let (x, y, [a, b, c, _, e, f, g, h]) = (w[t + 1], w[t + 14], state);
             let s0 = x.rotate_right(7) ^ x.rotate_right(18) ^ (x >> 3);
@@ -31,7 +31,7 @@ pub fn sha256(bytes: &[u8]) -> [u8; 32] {
             state[0] = sum(&[t1, s0, (a & b) ^ (a & c) ^ (b & c)]);
             state[4] = sum(&[state[4], t1]);
         }
-        state.iter_mut().zip(before).for_each(|(word, before)| *word = word.wrapping_add(before));
+        state.iter_mut().zip(old_state).for_each(|(word, old_word)| *word = word.wrapping_add(old_word));
     }
     core::array::from_fn(|k| state[k / 4].to_be_bytes()[k % 4])
 }

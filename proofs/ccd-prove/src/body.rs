@@ -8,8 +8,8 @@ use std::cmp::Ordering;
 
 /// A mesh of rounded triangles with a bounding box tree, and the bytes of both.
 ///
-/// Each vertex has a ball around it. A rounded triangle is the convex hull of the balls around its corners. It is flat if their radii
-/// are 0.
+/// Each vertex is the center of a ball. A rounded triangle is the convex hull of the balls at its corners. It is flat if the radii of
+/// the balls are 0.
 #[derive(Clone, Debug)]
 pub struct Body {
     pub(crate) tree: Tree,
@@ -23,13 +23,13 @@ impl Body {
     /// Creates a body from a mesh of flat triangles.
     ///
     /// # Panics
-    /// If the index of a corner is out of range, or if there is no triangle.
+    /// Panics if the index of a corner is out of range, or if there is no triangle.
     pub fn new(vertices: &[[f64; 3]], faces: &[[u32; 3]]) -> Self {
         let flat: Vec<[f64; 4]> = vertices.iter().map(|&[x, y, z]| [x, y, z, 0.0]).collect();
         Body::rounded(&flat, faces)
     }
 
-    /// Creates a body from a mesh of rounded triangles. Each vertex has x, y, z and the radius of the ball around it.
+    /// Creates a body from a mesh of rounded triangles. A vertex is given as x, y, z and the radius of its ball.
     ///
     /// # Panics
     /// Like [`new`](Self::new).
@@ -48,9 +48,9 @@ impl Body {
         assert!(!triangles.is_empty(), "a body has triangles");
         let mesh = mesh_bytes(vertices, faces);
         let mut hasher = Sha256::new();
-        for part in mesh.chunks(HASH_CHUNK) {
+        for chunk in mesh.chunks(HASH_CHUNK) {
             stop.check()?;
-            hasher.update(part);
+            hasher.update(chunk);
         }
         let digest: [u8; 32] = hasher.finalize().into();
         let (tree, numbers) = Tree::new(&triangles, stop)?;
@@ -67,14 +67,14 @@ impl Body {
 
     /// Converts a body of the engine. Returns `None` if a piece with more than three points has no mesh triangles.
     ///
-    /// A ball becomes a triangle with its center as all three corners, and a capsule a triangle along its axis. Vertices and
+    /// A ball becomes a triangle whose three corners are the center. A capsule becomes a triangle along its axis. Vertices and
     /// triangles are sorted, so the bytes of the mesh do not depend on the engine's tree.
     pub fn of(body: &ccd_core::Body) -> Option<Self> {
         let Ok(body) = Body::of_triangles(&triangles_of(body)?, Never);
         Some(body)
     }
 
-    /// Creates a body from triangles, whose corners have x, y, z and a radius.
+    /// Creates a body from triangles. A corner is given as x, y, z and a radius.
     pub(crate) fn of_triangles<S: Stop>(
         triangles: &[[DVec4; 3]],
         stop: S,
@@ -83,7 +83,7 @@ impl Body {
         Body::build(&vertices, &faces, stop)
     }
 
-    /// Returns the bytes of the mesh. A certificate names a mesh by the digest of these bytes.
+    /// Returns the bytes of the mesh. A certificate identifies a mesh by the SHA-256 digest of these bytes.
     pub fn mesh(&self) -> &[u8] {
         &self.mesh
     }
@@ -114,10 +114,10 @@ pub(crate) fn triangles_of(body: &ccd_core::Body) -> Option<Vec<[DVec4; 3]>> {
                 triangles.push(rounded([*a, *b, *c]));
             }
             _ => {
-                let before = triangles.len();
+                let count = triangles.len();
                 let corners = piece.mesh_triangles().map(|(_, corners)| corners);
                 triangles.extend(corners.map(rounded));
-                if triangles.len() == before {
+                if triangles.len() == count {
                     return None;
                 }
             }
@@ -129,8 +129,8 @@ pub(crate) fn triangles_of(body: &ccd_core::Body) -> Option<Vec<[DVec4; 3]>> {
 /// The vertices of a mesh, and the indices of the corners of its triangles.
 type IndexedMesh = (Vec<[f64; 4]>, Vec<[u32; 3]>);
 
-/// Returns the distinct vertices of triangles, sorted by their coordinates, and the sorted triangles. The corners of a triangle are
-/// rotated so that the least index comes first.
+/// Returns the distinct vertices of triangles, sorted by their coordinates, and the sorted triangles. Each triangle starts with its
+/// corner of least index.
 fn sorted_mesh<S: Stop>(triangles: &[[DVec4; 3]], stop: S) -> Result<IndexedMesh, S::Stopped> {
     let compare = |a: &[f64; 4], b: &[f64; 4]| {
         let coordinates = a.iter().zip(b).map(|(a, b)| a.total_cmp(b));

@@ -1,4 +1,4 @@
-//! Bounding boxes of vertices, and the range of the radii around them.
+//! Bounding boxes of vertices, and the ranges of their radii.
 
 use ccd_core::glam::{DVec3, DVec4};
 use ccd_core::order::{greater, lesser};
@@ -40,7 +40,7 @@ impl Bounds {
         (0.5 * (self.least + self.greatest)).truncate()
     }
 
-    /// Returns half of the surface area of the box, plus a tenth of the square of its diagonal. The diagonal orders boxes with no
+    /// Returns half of the surface area of the box, plus a tenth of its squared diagonal. The diagonal also orders boxes without
     /// area.
     pub(crate) fn area(&self) -> f64 {
         let size = (self.greatest - self.least).truncate();
@@ -49,12 +49,12 @@ impl Bounds {
     }
 
     /// Returns the least dot product of `direction` with a point of the box.
-    pub(crate) fn least_height(&self, direction: DVec4) -> f64 {
+    pub(crate) fn min_projection(&self, direction: DVec4) -> f64 {
         by_coordinate(direction * self.least, direction * self.greatest, lesser).element_sum()
     }
 }
 
-/// Applies a function to each pair of coordinates.
+/// Returns the results of a function of each pair of coordinates.
 pub(crate) fn by_coordinate(a: DVec4, b: DVec4, f: fn(f64, f64) -> f64) -> DVec4 {
     DVec4::new(f(a.x, b.x), f(a.y, b.y), f(a.z, b.z), f(a.w, b.w))
 }

@@ -1,4 +1,4 @@
-//! Proofs about the paths of a robot in a cell.
+//! Proofs of answers about paths of a robot in a cell.
 
 use crate::body::Body;
 use crate::error::{CellNotProvable, NotProven, PathNotProven};
@@ -8,7 +8,7 @@ use crate::rigid_groups::{RigidGroup, rigid_groups};
 use crate::scene::{AxisKind, Joint, Link, Pair, Scene, SceneBody, Witness};
 use crate::statement::Statement;
 use crate::stop::{Never, Stop};
-use crate::write::{Proof, mesh_points, prove_unless_stopped, statement_of};
+use crate::write::{Proof, nearest_mesh_points, prove_unless_stopped, statement_of};
 use ccd_core::{Motion, Pose};
 use rigid_ccd::Settings;
 use rigid_ccd::trajectory::JointKind;
@@ -18,14 +18,14 @@ use std::sync::atomic::AtomicBool;
 
 /// A robot's cell whose bodies are prepared for proofs.
 ///
-/// Bodies that are static relative to each other, such as all obstacles, are merged into one body if they are compared with the same
-/// other bodies. The vertices of the merged mesh are in the frame of the common link, rounded to binary64. The ball around each vertex
-/// grows by the rounding error, so a proof about the merged mesh holds for each of its bodies.
+/// Bodies that are static relative to each other are merged into one body, for example all obstacles. A condition is that all of them
+/// are compared with the same other bodies. The vertices of the merged mesh are in the frame of the common link, rounded to binary64.
+/// The radius of each vertex grows by the rounding error, so a proof about the merged mesh holds for each of its bodies.
 #[derive(Debug)]
 pub struct ProvenCell<'c> {
     cell: &'c Cell,
     groups: Vec<RigidGroup>,
-    /// The links that move the bodies, each with its parent and the index of its joint. Parents come first.
+    /// The links whose motion moves a body, each with its parent and the index of its joint. Parents come first.
     links: Vec<(usize, usize, usize)>,
 }
 
@@ -33,13 +33,14 @@ impl<'c> ProvenCell<'c> {
     /// Prepares the bodies of a cell.
     ///
     /// # Errors
-    /// [`CellNotProvable`] if a body has no mesh, with the name of its obstacle, attached body or link, or if no pair is compared.
+    /// [`CellNotProvable`] if no pair is compared, or if a body has no mesh. The error then names the obstacle, the attached body or
+    /// the link.
     pub fn new(cell: &'c Cell) -> Result<Self, CellNotProvable> {
         let Ok(proven) = ProvenCell::prepare(cell, Never);
         proven
     }
 
-    /// Prepares the bodies of a cell as [`new`](Self::new) does. Returns `None` soon after another thread sets a flag.
+    /// Prepares the bodies of a cell as [`new`](Self::new) does. Returns `None` soon after another thread sets the flag `stop`.
     pub fn unless_stopped(
         cell: &'c Cell,
         stop: &AtomicBool,
@@ -51,8 +52,8 @@ impl<'c> ProvenCell<'c> {
         cell: &'c Cell,
         stop: S,
     ) -> Result<Result<Self, CellNotProvable>, S::Stopped> {
-        if let Err(nothing) = cell.check_any_compared() {
-            return Ok(Err(nothing.into()));
+        if let Err(error) = cell.check_any_compared() {
+            return Ok(Err(error.into()));
         }
         let groups = rigid_groups(cell, stop)?;
         Ok(groups.map_or_else(
@@ -83,12 +84,13 @@ impl<'c> ProvenCell<'c> {
         self.cell
     }
 
-    /// Returns the meshes of a proof, each of one body or of several merged ones.
+    /// Returns the meshes of a proof. Each is the mesh of one body, or the merged mesh of several bodies.
     pub fn meshes(&self) -> impl Iterator<Item = &Body> {
         self.groups.iter().map(|group| &group.body)
     }
 
-    /// Returns the scene of an edge. Its joints move from one configuration to another at constant rates, from time 0 to 1.
+    /// Returns the scene of an edge. All joints move at constant rates, from the first configuration at time 0 to the second one at
+    /// time 1.
     ///
     /// # Errors
     /// [`RobotError::WrongPositionCount`].
@@ -96,7 +98,7 @@ impl<'c> ProvenCell<'c> {
         let robot = self.cell.robot();
         let [from, to] = [robot.joint_positions(from)?, robot.joint_positions(to)?];
         let mut scene = Scene::default();
-        // The index of each link of the robot in the scene. The base is the world.
+        // For each link of the robot its index in the scene. The base is the world.
         let mut scene_links = vec![0; robot.links().len()];
         for &(link, parent, joint_index) in &self.links {
             let joint = &robot.joints()[joint_index].geometry;
@@ -131,27 +133,27 @@ impl<'c> ProvenCell<'c> {
     pub fn joints_of(&self, statement: &Statement, margin: f64) -> Option<Vec<(&str, [f64; 2])>> {
         let robot = self.cell.robot();
         let zeros = vec![0.0; robot.independent_joint_names().len()];
-        let own = statement_of(&self.edge(&zeros, &zeros, margin).ok()?, 0.0)?;
-        let scales = own.scales(statement)?;
+        let cell_statement = statement_of(&self.edge(&zeros, &zeros, margin).ok()?, 0.0)?;
+        let scales = cell_statement.scales(statement)?;
         let links = statement.links.iter().zip(scales).zip(&self.links);
-        let joints = links.filter(|((stated, _), _)| stated.axes > 0);
-        let positions = joints.map(|((stated, scale), (.., joint_index))| {
-            let positions = [stated.start, stated.start + stated.rate].map(|s| s * scale);
+        let joints = links.filter(|((link, _), _)| link.axes > 0);
+        let positions = joints.map(|((link, scale), (.., joint_index))| {
+            let positions = [link.start, link.start + link.rate].map(|s| s * scale);
             (&*robot.joints()[*joint_index].name, positions)
         });
         Some(positions.collect())
     }
 
-    /// Checks that the robot can have the joint positions of a statement, which [`ProvenCell::joints_of`] returns. They have to be
-    /// within the limits, and a joint that follows another one has to agree with its rule.
+    /// Checks that the robot can have the joint positions that [`ProvenCell::joints_of`] returns. They have to be within the joint
+    /// limits, and a mimic joint has to agree with its rule.
     ///
     /// # Errors
-    /// [`ImpossiblePosition`], with the first joint that fails.
+    /// [`ImpossiblePosition`] with the first joint whose position is impossible.
     pub fn check_positions(&self, joints: &[(&str, [f64; 2])]) -> Result<(), ImpossiblePosition> {
         check_positions(self.cell.robot(), joints)
     }
 
-    /// Returns the statement of a proof of a whole edge. Returns `None` if a number is too small for a certificate.
+    /// Returns the statement that all pairs stay apart on a whole edge. Returns `None` if a number is too small for a certificate.
     ///
     /// # Errors
     /// [`RobotError::WrongPositionCount`].
@@ -163,7 +165,7 @@ impl<'c> ProvenCell<'c> {
         Ok(statement_of(&self.edge(from, to, margin)?, 1.0))
     }
 
-    /// Returns the pairs of groups that are compared. All members of a group have the same pairs, so the first members suffice.
+    /// Returns the compared pairs of groups. All members of a group have the same pairs, so only the first members are considered.
     fn pairs(&self, margin: f64) -> Vec<Pair> {
         let groups = self.groups.iter().enumerate();
         let by_first_member: HashMap<usize, usize> = groups
@@ -180,8 +182,8 @@ impl<'c> ProvenCell<'c> {
 
     /// Proves the answer about the first contact on a path, with one proof for each segment up to the contact.
     ///
-    /// A proof states that all pairs of the cell stay farther apart than the margin. The last one also has the contact as a witness.
-    /// A segment has no proof if bodies are in contact at its start, unless their surfaces can still be proven apart there.
+    /// The statement of a proof is that all pairs of the cell stay farther apart than the margin. The last proof also has the contact as
+    /// a witness. A segment has no proof if bodies are in contact at its start, unless their surfaces can be proven apart there.
     ///
     /// # Errors
     /// [`PathNotProven`].
@@ -194,8 +196,8 @@ impl<'c> ProvenCell<'c> {
         self.path_proofs(path, answer, settings).collect()
     }
 
-    /// Proves the answer as [`prove_path`](Self::prove_path) does, but computes each proof when the iterator reaches it. The iterator
-    /// ends after the first error.
+    /// Returns an iterator over the proofs of [`prove_path`](Self::prove_path), which computes each proof when it is reached. The
+    /// iterator ends after the first error.
     pub fn path_proofs<'p, C: AsRef<[f64]>>(
         &'p self,
         path: &'p [C],
@@ -203,7 +205,7 @@ impl<'c> ProvenCell<'c> {
         settings: &'p Settings,
     ) -> impl Iterator<Item = Result<Proof, PathNotProven>> + 'p {
         let is_of_first_contact = answer.is_free_until_contact();
-        let refused = (!is_of_first_contact).then_some(Err(PathNotProven::NoFirstContact));
+        let wrong_question = (!is_of_first_contact).then_some(Err(PathNotProven::NoFirstContact));
         let is_free = matches!(answer.outcome, PathOutcome::Free);
         let end = (!is_free).then_some(answer.free_until);
         let last = end.map_or(usize::MAX, |end| end.segment);
@@ -218,11 +220,11 @@ impl<'c> ProvenCell<'c> {
                     .transpose()
             });
         let mut has_failed = false;
-        let proofs = refused.into_iter().chain(proofs);
+        let proofs = wrong_question.into_iter().chain(proofs);
         proofs.take_while(move |proof| !std::mem::replace(&mut has_failed, proof.is_err()))
     }
 
-    /// Proves a segment up to a fraction of it. Returns `None` if bodies are in contact at its start.
+    /// Proves a segment of a path from its start to a fraction of its length. Returns `None` if bodies are in contact at the start.
     fn prove_segment(
         &self,
         (segment, [from, to]): (usize, [&[f64]; 2]),
@@ -245,9 +247,9 @@ impl<'c> ProvenCell<'c> {
         }
     }
 
-    /// Returns the witness of a contact. Several pairs of the scene may belong to the contact's links or obstacles; the witness is for
-    /// the pair whose meshes are nearest to the contact's points. Returns `None` if no pair belongs to it, or if a deadline left the
-    /// contact without points.
+    /// Returns the witness of a contact. Several pairs of the scene may consist of the contact's links or obstacles. The witness then
+    /// belongs to the pair whose meshes are nearest to the contact's points. Returns `None` if there is no such pair, or if the contact
+    /// has no points because of a deadline.
     fn witness(
         &self,
         scene: &Scene<'_>,
@@ -255,17 +257,17 @@ impl<'c> ProvenCell<'c> {
         tolerance: f64,
     ) -> Option<Witness> {
         let items: Vec<Item<'_>> = self.cell.carried_bodies().map(|body| body.item).collect();
-        let has = |body: usize, item: Item<'_>| {
+        let contains = |body: usize, item: Item<'_>| {
             let mut members = self.groups[body].members.iter();
             members.any(|&member| items[member] == item)
         };
         let links = link_motions(&scene.links, 0).ok()?;
         let ([a, b], [x, y]) = (contact.witnesses?, contact.items);
-        let all = scene.pairs.iter().enumerate();
-        let candidates = all.filter_map(|(pair, Pair { bodies: [k, l], .. })| {
-            let points = if has(*k, x) && has(*l, y) {
+        let pairs = scene.pairs.iter().enumerate();
+        let candidates = pairs.filter_map(|(pair, Pair { bodies: [k, l], .. })| {
+            let points = if contains(*k, x) && contains(*l, y) {
                 [a, b]
-            } else if has(*k, y) && has(*l, x) {
+            } else if contains(*k, y) && contains(*l, x) {
                 [b, a]
             } else {
                 return None;
@@ -276,7 +278,7 @@ impl<'c> ProvenCell<'c> {
                 tolerance,
                 points,
             };
-            let [on_a, on_b] = mesh_points(scene, &links, witness);
+            let [on_a, on_b] = nearest_mesh_points(scene, &links, witness);
             Some((on_a.distance + on_b.distance, witness))
         });
         let nearest = candidates.min_by(|a, b| a.0.total_cmp(&b.0));
@@ -284,6 +286,7 @@ impl<'c> ProvenCell<'c> {
     }
 }
 
+/// Returns a joint of the robot as a joint of a scene. It moves from the position `start` to `end` in time 1.
 fn scene_joint(kind: JointKind, pose: Pose, [start, end]: [f64; 2]) -> Joint {
     let (kind, axis) = match kind {
         JointKind::Fixed => return fixed_joint(pose),

@@ -2,17 +2,17 @@
 
 use rigid_ccd_robot::{NothingCompared, RobotError};
 
-/// A body that has no mesh for a proof, as a piece of it has no mesh triangles.
+/// A body that no proof can be about, because one of its pieces has no mesh triangles.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{body} has pieces without mesh triangles, which no proof can be about; prepare it from a mesh, with exact pieces"
+    "no proof can be about {body}, because some of its pieces have no mesh triangles; create the body from a mesh, with exact pieces"
 )]
 pub struct NoMesh {
     /// The name of the body.
     pub body: String,
 }
 
-/// The reason why the bodies of a cell are not prepared for proofs.
+/// The reason why the bodies of a cell cannot be prepared for proofs.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CellNotProvable {
@@ -28,10 +28,10 @@ pub enum CellNotProvable {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotProven {
-    /// Two triangles are too near each other to be proven apart.
+    /// The distance of two triangles is too small for a proof.
     #[error(
-        "two triangles cannot be proven apart at time {at} or soon after; a proof needs a gap of about 1e-12 of the largest length, \
-         and a larger tolerance leaves a larger gap"
+        "two triangles cannot be proven apart at time {at} or soon after; their gap has to be at least about 1e-12 of the largest length, \
+         and a larger tolerance makes it larger"
     )]
     Touching {
         /// The time until which the certificate is complete.
@@ -39,7 +39,7 @@ pub enum NotProven {
     },
     /// The certificate would exceed the maximum length.
     #[error(
-        "the certificate has {bytes} bytes but is complete only until time {at}; a larger tolerance makes it shorter"
+        "the certificate already has {bytes} bytes and is complete only until time {at}; a larger tolerance makes it shorter"
     )]
     TooLong {
         /// The time until which the certificate is complete.
@@ -61,7 +61,7 @@ pub enum NotProven {
         /// The time until which the certificate is complete.
         at: f64,
     },
-    /// The motion of a link has numbers so small that scaling by a power of two loses bits.
+    /// The motion of a link has a number so small that scaling it by a power of two loses bits.
     #[error(
         "the motion of link {link} has a number near 1e-308, which is too small for a certificate"
     )]
@@ -69,11 +69,11 @@ pub enum NotProven {
         /// The link, where 1 is the first one.
         link: usize,
     },
-    /// A link turns farther than the checker's limit.
+    /// A joint angle exceeds the checker's limit.
     #[error(
-        "link {link} turns too far for the checker: its limit is 256 radians at the start, and at least 128 radians from there"
+        "link {link} rotates too far for the checker: the limit is 256 radians at the start, and at least 128 radians during the motion"
     )]
-    TurnsTooFar {
+    RotationTooLarge {
         /// The link, where 1 is the first one.
         link: usize,
     },
@@ -86,7 +86,7 @@ pub enum PathNotProven {
     /// The path does not fit the robot.
     #[error(transparent)]
     Robot(#[from] RobotError),
-    /// The answer is not about the first contact.
+    /// The answer is to another question than the first contact.
     #[error("the answer is not about the first contact; only such an answer can be proven")]
     NoFirstContact,
     /// A segment of the path cannot be proven.

@@ -12,13 +12,13 @@ pub(crate) struct MeshPoint {
     pub(crate) weights: [f64; 3],
     /// The coordinates x, y, z, and the radius of the ball around the point.
     pub(crate) ball: DVec4,
-    /// The distance from the ball to the point that was asked for.
+    /// The distance of the ball from the query point.
     pub(crate) distance: f64,
 }
 
 impl MeshPoint {
-    /// Finds the nearest point of a mesh to `point`, in the frame of the mesh. It takes the nearest point of each flat triangle, and
-    /// of these the one with the nearest ball.
+    /// Finds a point of a mesh whose ball is near `point`, in the frame of the mesh. The candidates are the nearest points of all flat
+    /// triangles. The function returns the candidate with the nearest ball.
     pub(crate) fn nearest(tree: &Tree, point: DVec3) -> MeshPoint {
         let triangles = tree.triangles.iter().enumerate();
         let points = triangles.map(|(triangle, corners)| {
@@ -41,8 +41,8 @@ impl MeshPoint {
     }
 }
 
-/// Returns the barycentric weights of the nearest point of a triangle to p. That point is the projection of p, if it is inside, or
-/// else the nearest point of an edge. The triangle may be a segment or a single point.
+/// Returns the barycentric weights of the point of a triangle that is nearest to p. It is the projection of p if that is inside of the
+/// triangle, or else the nearest point of an edge. The triangle may be a segment or a single point.
 fn nearest_weights(corners: [DVec3; 3], p: DVec3) -> [f64; 3] {
     let distance_squared = |weights: &[f64; 3]| {
         let point = (0..3).map(|k| corners[k] * weights[k]).sum::<DVec3>();
@@ -72,36 +72,4 @@ fn nearest_weights(corners: [DVec3; 3], p: DVec3) -> [f64; 3] {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_nearest_points_of_triangles_segments_and_points_are_found() {
-        let [x, y] = [DVec3::X, DVec3::Y];
-        for (corners, point, expected) in [
-            (
-                [DVec3::ZERO, x, y],
-                DVec3::new(0.2, 0.3, 5.0),
-                [0.5, 0.2, 0.3],
-            ),
-            (
-                [DVec3::ZERO, x, y],
-                DVec3::new(0.5, -2.0, 1.0),
-                [0.5, 0.5, 0.0],
-            ),
-            (
-                [DVec3::ZERO, x, y],
-                DVec3::new(3.0, -1.0, 0.0),
-                [0.0, 1.0, 0.0],
-            ),
-            ([-x, x, x], DVec3::new(0.0, 2.0, 0.0), [0.5, 0.5, 0.0]),
-            ([x, x, -x], DVec3::new(-3.0, 2.0, 0.0), [0.0, 0.0, 1.0]),
-        ] {
-            let found = nearest_weights(corners, point);
-            let error = (0..3).map(|k| (found[k] - expected[k]).abs()).sum::<f64>();
-            assert!(error < 1e-12, "{corners:?} {point}: {found:?}");
-        }
-        let of_a_point = nearest_weights([x; 3], y);
-        assert!((of_a_point.iter().sum::<f64>() - 1.0).abs() < 1e-12);
-    }
-}
+mod tests;

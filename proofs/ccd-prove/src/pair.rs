@@ -25,7 +25,7 @@ impl ProvenPair {
         pair
     }
 
-    /// Prepares two bodies as [`new`](Self::new) does. Returns `None` soon after another thread sets a flag.
+    /// Prepares two bodies as [`new`](Self::new) does. Returns `None` soon after another thread sets the flag `stop`.
     pub fn unless_stopped(
         a: &ccd_core::Body,
         b: &ccd_core::Body,
@@ -51,18 +51,19 @@ impl ProvenPair {
         self.bodies.each_ref()
     }
 
-    /// Returns the statement of a proof of two whole motions. Returns `None` if a number is too small for a certificate.
+    /// Returns the statement that the bodies stay apart during whole motions. Returns `None` if a number is too small for a
+    /// certificate.
     pub fn statement(&self, motions: [Motion; 2], duration: f64, margin: f64) -> Option<Statement> {
         let [a, b] = &self.bodies;
         let scene = Scene::of_two((a, motions[0]), (b, motions[1]), margin);
         statement_of(&scene, duration)
     }
 
-    /// Proves an answer about the first contact. The proof states that the bodies stay farther apart than the margin until the
-    /// contact, and has the contact as a witness. If a limit ended the query, it states how long the bodies certainly stay apart.
+    /// Proves an answer about the first contact. The statement is that the bodies stay farther apart than the margin until the contact.
+    /// The witness is the contact. If a limit ended the query, the statement ends at the certified time, and has no witness.
     ///
-    /// `settings` are those of the query, whose stop flag also stops the proof. Returns `None` if there is nothing to prove: the bodies
-    /// are in contact at the start, or the query was about a distance.
+    /// `settings` are the settings of the query. Their stop flag also stops the proof. Returns `None` if there is nothing to prove: the
+    /// bodies are in contact at the start, or the query was about a distance.
     ///
     /// # Errors
     /// [`NotProven`].

@@ -4,7 +4,7 @@ use crate::tolerances::POSITION_ERROR;
 use rigid_ccd_robot::{Joint, PositionRule, Robot};
 use std::collections::BTreeMap;
 
-/// A joint position of a certificate that the robot cannot have.
+/// A joint position in a certificate that the robot cannot have.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ImpossiblePosition {
@@ -20,8 +20,10 @@ pub enum ImpossiblePosition {
         /// The upper limit.
         high: f64,
     },
-    /// The joint follows another joint, and its position does not agree with its rule.
-    #[error("joint {joint} is at {position}, but follows {followed}, which moves it to {expected}")]
+    /// The joint is a mimic joint, and its position does not agree with its rule.
+    #[error(
+        "joint {joint} is at {position}, but by its mimic rule for {followed} it would be at {expected}"
+    )]
     NotFollowing {
         /// The name of the joint.
         joint: String,
@@ -34,15 +36,15 @@ pub enum ImpossiblePosition {
     },
 }
 
-/// The position of a joint as a function of its root, which is the independent joint at the end of the chain of rules:
-/// `factor · root + offset`.
+/// The position of a joint as a function of its root: `factor · root + offset`. The root is the independent joint at the end of the
+/// chain of mimic rules.
 struct Rule<'r> {
     root: &'r Joint,
     factor: f64,
     offset: f64,
     /// The sum of the magnitudes of the terms of `offset`.
     offset_magnitude: f64,
-    /// The number of rules in the chain. It is 0 for an independent joint.
+    /// The number of rules in the chain, as a factor of error bounds. It is 0 for an independent joint.
     chain_length: f64,
 }
 
@@ -53,7 +55,8 @@ struct BoundedPosition {
     error: f64,
 }
 
-/// Checks the positions of joints at both ends of an edge. Positions are linear in between, so limits and rules then hold there, too.
+/// Checks the positions of joints at both ends of an edge. Positions are linear in time, so the limits and the rules then hold on the
+/// whole edge.
 pub(crate) fn check_positions(
     robot: &Robot,
     joints: &[(&str, [f64; 2])],
@@ -65,7 +68,7 @@ pub(crate) fn check_positions(
         .filter_map(|&(name, ends)| Some((name, ends, rule(&by_name, by_name.get(name)?)?)));
     let rules: Vec<_> = rules.collect();
     for end in 0..2 {
-        // A root may be missing in the statement, if it moves no body. Then the position of a follower gives that of the root.
+        // The statement has no position of a root that moves no body. In this case a follower's position determines the root's position.
         let mut roots: BTreeMap<&str, BoundedPosition> = BTreeMap::new();
         for is_root in [true, false] {
             for (_, ends, rule) in rules
@@ -133,7 +136,7 @@ fn check_limits(
 ) -> Result<(), ImpossiblePosition> {
     let limits = joint.geometry.limits();
     let (low, high) = (*limits.start(), *limits.end());
-    // Written so that NaN is refused.
+    // This form of the comparison refuses NaN.
     if position >= low - error && position <= high + error {
         return Ok(());
     }
@@ -154,10 +157,10 @@ fn check_follows(
     let (root, root_error) = root.map_or((0.0, 0.0), |root| (root.position, root.error));
     let expected = rule.factor * root + rule.offset;
     let magnitude = magnitude(ends) + (rule.factor * root).abs() + rule.offset_magnitude;
-    let allowed =
+    let max_error =
         rule.factor.abs() * root_error + POSITION_ERROR * (1.0 + rule.chain_length) * magnitude;
     let position = ends[end];
-    if (position - expected).abs() <= allowed {
+    if (position - expected).abs() <= max_error {
         return Ok(());
     }
     Err(ImpossiblePosition::NotFollowing {

@@ -1,4 +1,4 @@
-//! The scene of a certificate: links that move on each other, the meshes on them, and the pairs that stay apart.
+//! The scene of a certificate: links that move relative to their parents, the meshes on the links, and the pairs that stay apart.
 
 use crate::body::Body;
 use ccd_core::glam::DVec3;
@@ -15,16 +15,16 @@ pub struct Scene<'a> {
     pub pairs: Vec<Pair>,
 }
 
-/// Two bodies, and the margin that they keep.
+/// Two bodies, and their margin.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair {
     /// The indices of both bodies in the scene.
     pub bodies: [usize; 2],
-    /// The distance that the bodies stay farther apart than.
+    /// The bodies stay farther apart than this distance.
     pub margin: f64,
 }
 
-/// A link, and its motion on its parent.
+/// A link, and its motion relative to its parent.
 #[derive(Clone, Copy, Debug)]
 pub struct Link {
     /// The parent: 0 is the world, 1 the first link.
@@ -33,22 +33,22 @@ pub struct Link {
     pub joint: Joint,
 }
 
-/// The motion of a link on its parent.
+/// The motion of a link relative to its parent.
 #[derive(Clone, Copy, Debug)]
 pub enum Joint {
     /// A free motion, at a constant velocity and a constant angular velocity.
     Free(Motion),
-    /// A motion about an axis or along an axis, at a constant rate.
+    /// A revolute or prismatic joint that moves at a constant rate.
     Axis {
-        /// Whether the link turns about the axis or slides along it.
+        /// Whether the joint is revolute or prismatic.
         kind: AxisKind,
-        /// The pose of the link on its parent at position 0. This is the frame of the joint.
+        /// The pose of the link relative to its parent at joint position 0. It is the frame of the joint.
         pose: Pose,
         /// The axis in the joint's frame.
         axis: DVec3,
-        /// The position at time 0, in radians or as a length.
+        /// The joint position at time 0: an angle in radians or a length.
         start: f64,
-        /// The change of the position per time.
+        /// The change of the joint position per time.
         rate: f64,
     },
 }
@@ -56,9 +56,9 @@ pub enum Joint {
 /// The kind of a joint with an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AxisKind {
-    /// The link turns about the axis.
+    /// The link rotates about the axis.
     Revolute,
-    /// The link slides along the axis.
+    /// The link moves along the axis.
     Prismatic,
 }
 
@@ -67,11 +67,11 @@ pub enum AxisKind {
 pub struct SceneBody<'a> {
     /// The mesh.
     pub body: &'a Body,
-    /// The link that carries it: 0 is the world, 1 the first link.
+    /// The link to which it is attached: 0 is the world, 1 the first link.
     pub link: usize,
 }
 
-/// Two points of a pair that are near each other at a time.
+/// A point of each body of a pair, and a time at which the points are near each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Witness {
     /// The index of the pair in the scene.

@@ -3,13 +3,14 @@
 use crate::bounds::Bounds;
 use crate::stop::{Stop, sort};
 
-/// From this depth on each split halves the triangles. This bounds the depth of the tree, for which the checker's limit is 100.
+/// The depth from which on each split halves the number of triangles. This bounds the depth of the tree. The checker's limit is 100.
 const MAX_UNEVEN_DEPTH: usize = 60;
 
-/// Splits at least two triangles into two parts. Orders the triangles, and returns the number of triangles of the first part.
+/// Splits the triangles of a node, at least two, between its children. Orders the triangles, and returns the number of triangles of the
+/// first child.
 ///
-/// Chooses the split with the least surface area heuristic, of all splits along a coordinate axis: the sum over both parts of the
-/// box's area times the number of triangles.
+/// The candidates are all splits along a coordinate axis. The function chooses the split with the least cost by the surface area
+/// heuristic: the sum over both children of the box's area times the number of triangles.
 pub(crate) fn split<S: Stop>(
     boxes: &[Bounds],
     triangles: &mut [u32],
@@ -22,7 +23,7 @@ pub(crate) fn split<S: Stop>(
         sort_along(boxes, triangles, axis, stop)?;
         let first = costs(boxes, triangles.iter());
         let second = costs(boxes, triangles.iter().rev());
-        // `first[k]` is the cost of the first k + 1 triangles, `second[k]` that of the last k + 1.
+        // `first[k]` is the cost of the first k + 1 triangles, and `second[k]` is the cost of the last k + 1 triangles.
         let sums = first
             .iter()
             .zip(second.iter().rev().skip(1))
@@ -42,7 +43,7 @@ pub(crate) fn split<S: Stop>(
     })
 }
 
-/// Returns the cost of the first triangle, of the first two triangles, and so on: their number times the area of their box.
+/// Returns, for each k from 1 on, the cost of the first k triangles: k times the area of their box.
 fn costs<'a>(boxes: &[Bounds], triangles: impl Iterator<Item = &'a u32>) -> Vec<f64> {
     let ordered = triangles.map(|&triangle| &boxes[triangle as usize]);
     let growing = ordered.scan(None, |union: &mut Option<Bounds>, bounds| {

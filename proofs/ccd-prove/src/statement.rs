@@ -1,7 +1,7 @@
-//! Reads the statement of a certificate, to compare it and to print it. The checker has its own reader.
+//! Reads the statement of a certificate, to compare it with another statement and to print it. The checker does not use this reader.
 
 use crate::cursor::{Cursor, signed, unsigned};
-use crate::stated_link::StatedLink;
+use crate::statement_link::StatementLink;
 use crate::step::Step;
 use std::fmt::{self, Display};
 
@@ -11,7 +11,7 @@ pub struct Statement {
     /// The exponents of the units of length and of time.
     pub units: [i32; 2],
     /// The links.
-    pub links: Vec<StatedLink>,
+    pub links: Vec<StatementLink>,
     /// The bodies, each with the digest of its mesh and its link. Link 0 is the world.
     pub bodies: Vec<([u8; 32], u32)>,
     /// The pairs, each with the indices of both bodies and the margin.
@@ -19,14 +19,15 @@ pub struct Statement {
     /// The time until which the pairs stay farther apart than their margins.
     pub until: f64,
     /// The witness, if there is one.
-    pub witness: Option<StatedWitness>,
+    pub witness: Option<StatementWitness>,
     /// The number of bytes of the statement. The steps of the proof follow it.
     pub bytes: usize,
 }
 
-/// The subject of a statement: the meshes, their motions, and the pairs, without margins and times. Statements can be compared by it.
+/// The meshes, motions and pairs of a statement, without margins and times. Two statements with equal subjects are about the same
+/// question.
 ///
-/// Two motions are equal if their numbers are, apart from the prover's scaling by powers of two.
+/// The comparison ignores the prover's scaling of motions by powers of two.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Subject {
     links: Vec<Vec<u64>>,
@@ -34,9 +35,9 @@ pub struct Subject {
     pairs: Vec<[u32; 2]>,
 }
 
-/// Two points of a pair that are near each other at a time.
+/// A point of each body of a pair, and a time at which the points are near each other.
 #[derive(Clone, Debug, PartialEq)]
-pub struct StatedWitness {
+pub struct StatementWitness {
     /// The index of the pair.
     pub pair: u32,
     /// The time.
@@ -47,14 +48,14 @@ pub struct StatedWitness {
     pub points: [(u32, [u64; 3]); 2],
 }
 
-impl StatedWitness {
+impl StatementWitness {
     fn read(cursor: &mut Cursor<'_>) -> Option<Self> {
         let (pair, time, tolerance) = (cursor.u32()?, cursor.f64()?, cursor.f64()?);
         let mut point = || {
             let (triangle, mut weight) = (cursor.u32()?, || Some(unsigned(cursor.take(7)?)));
             Some((triangle, [weight()?, weight()?, weight()?]))
         };
-        Some(StatedWitness {
+        Some(StatementWitness {
             pair,
             time,
             tolerance,
@@ -72,7 +73,7 @@ impl Statement {
         }
         let units = [cursor.u32()? as i32, cursor.u32()? as i32];
         let [links, bodies, pairs] = [cursor.u32()?, cursor.u32()?, cursor.u32()?];
-        let links = (0..links).map(|_| StatedLink::read(&mut cursor));
+        let links = (0..links).map(|_| StatementLink::read(&mut cursor));
         let links = links.collect::<Option<_>>()?;
         let bodies = (0..bodies).map(|_| Some((cursor.take(32)?.try_into().ok()?, cursor.u32()?)));
         let bodies = bodies.collect::<Option<_>>()?;
@@ -81,7 +82,7 @@ impl Statement {
         let until = cursor.f64()?;
         let witness = match cursor.u32()? {
             0 => None,
-            1 => Some(StatedWitness::read(&mut cursor)?),
+            1 => Some(StatementWitness::read(&mut cursor)?),
             _ => return None,
         };
         Some(Statement {
@@ -95,30 +96,32 @@ impl Statement {
         })
     }
 
-    /// Returns the subject of the statement, for comparison with that of the wanted statement.
+    /// Returns the subject of the statement, for comparison with the subject of an expected statement.
     pub fn subject(&self) -> Subject {
         Subject {
-            links: self.links.iter().map(StatedLink::numbers).collect(),
+            links: self.links.iter().map(StatementLink::numbers).collect(),
             bodies: self.bodies.clone(),
             pairs: self.pairs.iter().map(|(bodies, _)| *bodies).collect(),
         }
     }
 
-    /// Returns whether each pair has at least the margin that it has in `wanted`, a statement with the same subject.
-    pub fn keeps_margins_of(&self, wanted: &Statement) -> bool {
-        let pairs = self.pairs.iter().zip(&wanted.pairs);
-        self.pairs.len() == wanted.pairs.len()
-            && pairs.into_iter().all(|(own, wanted)| own.1 >= wanted.1)
+    /// Returns whether the margin of each pair is at least its margin in `expected`, a statement with the same subject.
+    pub fn keeps_margins_of(&self, expected: &Statement) -> bool {
+        let pairs = self.pairs.iter().zip(&expected.pairs);
+        self.pairs.len() == expected.pairs.len()
+            && pairs
+                .into_iter()
+                .all(|((_, margin), (_, expected_margin))| margin >= expected_margin)
     }
 
-    /// Compares with a statement about the same bodies, links, pairs and margins, at other joint positions and times. Returns the
-    /// factor for the start and the rate of each link of `other`. Returns `None` if the statements differ in anything else.
+    /// Compares two statements that may have other joint positions, times and scalings by powers of two. Returns for each link the
+    /// factor that undoes the scaling of its start and its rate in `other`. Returns `None` if the statements differ in anything else.
     pub(crate) fn scales(&self, other: &Statement) -> Option<Vec<f64>> {
         let has_same_pairs = self.bodies == other.bodies
             && self.pairs == other.pairs
             && self.links.len() == other.links.len();
         let links = self.links.iter().zip(&other.links);
-        has_same_pairs.then(|| links.map(|(own, theirs)| own.scale(theirs)).collect())?
+        has_same_pairs.then(|| links.map(|(link, other)| link.scale(other)).collect())?
     }
 
     /// Returns a summary of one line.
@@ -133,7 +136,7 @@ impl Statement {
         };
         let mut text = format!("{count} farther apart than {least} until {until}");
         if let Some(witness) = &self.witness {
-            let StatedWitness {
+            let StatementWitness {
                 pair,
                 time,
                 tolerance,
@@ -145,16 +148,16 @@ impl Statement {
     }
 }
 
-/// Writes the whole statement as text, with one line for each link, body and pair. A link has the numbers that it was [given
-/// in](StatedLink::as_given). A number has the fewest digits that give the same binary64.
+/// Writes the whole statement as text, with one line for each link, body and pair. The numbers of a link are [without the prover's
+/// scaling](StatementLink::without_scaling). A number has the fewest digits that identify its binary64.
 impl Display for Statement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [length, time] = self.units;
         writeln!(f, "units 2^{length} of length, 2^{time} of time")?;
         for (number, link) in self.links.iter().enumerate() {
-            let link = link.as_given();
+            let link = link.without_scaling();
             let axes = if link.axes == 0 { "parent" } else { "joint" };
-            let StatedLink {
+            let StatementLink {
                 parent,
                 position,
                 quaternion,
@@ -181,7 +184,7 @@ impl Display for Statement {
         }
         write!(f, "until {:?}", self.until)?;
         if let Some(witness) = &self.witness {
-            let StatedWitness {
+            let StatementWitness {
                 pair,
                 time,
                 tolerance,
@@ -196,7 +199,7 @@ impl Display for Statement {
     }
 }
 
-/// Returns the steps of a proof as text, one on each line. The text ends with `broken` at a step that cannot be read.
+/// Returns the steps of a proof as text, with one step per line. The text ends with `broken` at a step that cannot be read.
 pub fn steps_text(certificate: &[u8], statement: &Statement) -> String {
     let mut cursor = Cursor(certificate.get(statement.bytes..).unwrap_or_default());
     let mut text = String::new();
@@ -213,7 +216,7 @@ pub fn steps_text(certificate: &[u8], statement: &Statement) -> String {
 fn step_text(opcode: u8, cursor: &mut Cursor<'_>) -> Option<String> {
     let body = |index: usize| ["A", "B"][index];
     Some(match Step::from_opcode(opcode)? {
-        Step::SplitPart(index) => format!("split {}", body(index)),
+        Step::SplitNode(index) => format!("split {}", body(index)),
         Step::SplitTime => "split time".to_owned(),
         Step::Plane(frame) => {
             let frame = ["world", "A", "B"][frame];

@@ -1,19 +1,19 @@
-//! Stops long work when another thread sets a flag.
+//! The stop flag: another thread sets it to end long work early.
 
 use std::cmp::Ordering;
 use std::convert::Infallible;
 use std::sync::atomic::{self, AtomicBool};
 
-/// A condition that long work checks regularly, to see whether to stop.
+/// A stop condition, which long work checks regularly.
 pub(crate) trait Stop: Copy {
-    /// The error of stopped work. It has no value for work that is never stopped.
+    /// The error of stopped work. For work that is never stopped this type has no values.
     type Stopped;
 
     /// Returns an error if the work has to stop.
     fn check(self) -> Result<(), Self::Stopped>;
 }
 
-/// The condition of work that is never stopped.
+/// The stop condition of work that is never stopped.
 #[derive(Clone, Copy)]
 pub(crate) struct Never;
 
@@ -51,10 +51,10 @@ pub(crate) fn sort<T, S: Stop>(
 ) -> Result<(), S::Stopped> {
     let mut length = SORTED_AT_ONCE;
     loop {
-        for part in elements.chunks_mut(length) {
+        for chunk in elements.chunks_mut(length) {
             stop.check()?;
-            // Each part is two sorted runs, which the stable sort merges in a single pass.
-            part.sort_by(&compare);
+            // Each chunk consists of two sorted runs, which the stable sort merges in a single pass.
+            chunk.sort_by(&compare);
         }
         if length >= elements.len() {
             return Ok(());
@@ -64,30 +64,4 @@ pub(crate) fn sort<T, S: Stop>(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sorting_long_lists_is_stable() {
-        for count in [
-            0,
-            1,
-            SORTED_AT_ONCE,
-            SORTED_AT_ONCE + 1,
-            5 * SORTED_AT_ONCE - 3,
-        ] {
-            let value = |k: usize| (k.wrapping_mul(2_654_435_761) >> 7) % 1000;
-            let mut found: Vec<(usize, usize)> = (0..count).map(|k| (value(k), k)).collect();
-            let mut expected = found.clone();
-            expected.sort_unstable();
-            let Ok(()) = sort(&mut found, |a, b| a.0.cmp(&b.0), Never);
-            assert_eq!(found, expected);
-        }
-    }
-
-    #[test]
-    fn a_flag_stops_sorting() {
-        let flag = AtomicBool::new(true);
-        assert!(sort(&mut [2, 1], Ord::cmp, &flag).is_err());
-    }
-}
+mod tests;

@@ -1,12 +1,12 @@
 //! Writes a certificate: its statement, and the steps that prove it.
 
-use crate::cover::{Cover, CoverLimits, MAX_CACHED_STATES};
 use crate::error::NotProven;
 use crate::interval::link_states;
 use crate::link_motion::{LinkMotion, exponent_above, link_motions};
 use crate::nearest::MeshPoint;
 use crate::scene::{Scene, SceneBody, Witness};
 use crate::statement::Statement;
+use crate::subdivision::{MAX_CACHED_STATES, Subdivision, SubdivisionLimits};
 use crate::tolerances::ROUNDING;
 use crate::tree::Tree;
 use ccd_core::glam::DVec3;
@@ -24,30 +24,30 @@ pub struct Proof {
     pub unit: i32,
 }
 
-/// The checker's limit for the parameter of a link's motion, which is in radians for a turning link.
+/// The checker's limit for the parameter of a link's motion. For a revolute joint the parameter is an angle in radians.
 const MAX_PARAMETER: f64 = 256.0;
 
-/// A weight of a corner is a multiple of 2⁻⁵⁵.
+/// The inverse of the unit of barycentric weights, which is 2⁻⁵⁵.
 const WEIGHT_SCALE: f64 = (1u64 << 55) as f64;
 
 /// The number of bits of the largest length, in the unit of length.
 const LENGTH_BITS: i32 = 52;
 
-/// The checker's error of a rotation for each radian of a turn.
+/// The checker's error bound of a rotation for each radian of its angle.
 const ROTATION_ERROR: f64 = 1.0 / (1u64 << 50) as f64;
 
-/// The checker's limit for the sum of the lengths of all arms, as a multiple of the largest length. The sum has 59 bits, and a
-/// length 53.
-const MAX_ARM_SUM: f64 = 64.0;
+/// The checker's limit for the sum of all link offsets, as a multiple of the largest length. The sum has at most 59 bits, and a
+/// length has at most 53 bits.
+const MAX_LINK_OFFSET_SUM: f64 = 64.0;
 
-/// A constant that the checker adds to the sum of the lengths of all arms, in units of length.
-const ADDED_TO_ARM_SUM: f64 = (1u64 << 47) as f64;
+/// A constant that the checker adds to the sum of all link offsets, in units of length.
+const ADDED_TO_LINK_OFFSET_SUM: f64 = (1u64 << 47) as f64;
 
-/// Writes a certificate. It states that each pair of a scene stays farther apart than its margin from time 0 to `until`, and that
-/// the points of the witness are near each other.
+/// Writes a certificate. Its statement is that each pair of a scene stays farther apart than its margin from time 0 to `until`,
+/// and that the distance of the witness points is at most the margin plus the tolerance.
 ///
-/// To prove a first contact, set `until` to its time and give a witness at that time. To prove a least clearance, set `until` to the
-/// whole duration and the margins to the clearance, and give a witness at the time of the closest approach.
+/// To prove a first contact, set `until` to its time, and give a witness at that time. To prove a least clearance, set `until` to the
+/// end of the motion and the margins to the clearance, and give a witness at the time of the closest approach.
 ///
 /// # Errors
 /// [`NotProven`].
@@ -55,7 +55,7 @@ pub fn prove(scene: &Scene<'_>, until: f64, witness: Option<Witness>) -> Result<
     prove_unless_stopped(scene, until, witness, None)
 }
 
-/// Writes a certificate as [`prove`] does, but ends soon after another thread sets a flag.
+/// Writes a certificate as [`prove`] does. Returns [`NotProven::Stopped`] soon after another thread sets the flag `stop`.
 pub(crate) fn prove_unless_stopped(
     scene: &Scene<'_>,
     until: f64,
@@ -64,49 +64,49 @@ pub(crate) fn prove_unless_stopped(
 ) -> Result<Proof, NotProven> {
     let time_unit = exponent_above(until);
     let links = link_motions(&scene.links, time_unit)?;
-    let turns_too_far = |link: &LinkMotion| {
-        let magnitudes = link.screw.parameter_magnitudes(time_unit);
+    let exceeds_max_parameter = |link: &LinkMotion| {
+        let magnitudes = link.encoded.parameter_magnitudes(time_unit);
         !magnitudes
             .iter()
             .all(|&magnitude| magnitude <= MAX_PARAMETER)
     };
-    if let Some(link) = links.iter().position(turns_too_far) {
-        return Err(NotProven::TurnsTooFar { link });
+    if let Some(link) = links.iter().position(exceeds_max_parameter) {
+        return Err(NotProven::RotationTooLarge { link });
     }
     let statement = write_statement(scene, &links, until, witness)?;
-    let limits = CoverLimits {
+    let limits = SubdivisionLimits {
         until,
         stop,
         max_cached_states: MAX_CACHED_STATES,
     };
-    let cover = cover_pairs((scene, &links), &statement, limits)?;
+    let subdivision = subdivide_pairs((scene, &links), &statement, limits)?;
     Ok(Proof {
-        bytes: [statement.bytes, cover.steps].concat(),
-        leaves: cover.leaf_count,
+        bytes: [statement.bytes, subdivision.steps].concat(),
+        leaves: subdivision.leaf_count,
         unit: statement.length_exponent,
     })
 }
 
 /// Writes the steps that prove a statement.
-fn cover_pairs<'a>(
+fn subdivide_pairs<'a>(
     (scene, links): (&'a Scene<'a>, &'a [LinkMotion]),
-    statement: &Written,
-    limits: CoverLimits<'a>,
-) -> Result<Cover<'a>, NotProven> {
+    statement: &WrittenStatement,
+    limits: SubdivisionLimits<'a>,
+) -> Result<Subdivision<'a>, NotProven> {
     let length_unit = 2f64.powi(statement.length_exponent);
-    let mut cover = Cover::new((scene, links), limits, length_unit);
+    let mut subdivision = Subdivision::new((scene, links), limits, length_unit);
     for (index, pair) in scene.pairs.iter().enumerate() {
-        cover.write_pair(index, 0.5 * pair.margin + statement.rounding)?;
+        subdivision.write_pair(index, 0.5 * pair.margin + statement.rounding)?;
     }
-    Ok(cover)
+    Ok(subdivision)
 }
 
-/// A statement as it is written.
-struct Written {
+/// The bytes of a statement, and its unit and error bound.
+struct WrittenStatement {
     bytes: Vec<u8>,
     /// The exponent of the unit of length.
     length_exponent: i32,
-    /// The rounding allowance for the distance of a part from a plane, for the prover and the checker.
+    /// The error bound of the distance of a node from a plane. It covers the rounding of the prover and of the checker.
     rounding: f64,
 }
 
@@ -119,14 +119,19 @@ fn write_statement(
     links: &[LinkMotion],
     until: f64,
     witness: Option<Witness>,
-) -> Result<Written, NotProven> {
+) -> Result<WrittenStatement, NotProven> {
     let time_unit = exponent_above(until);
     let largest = largest_length(scene, links, time_unit);
-    let arm_sum = sum_of_arms(links, time_unit);
-    let length_exponent = exponent_above(greater(largest, arm_sum / MAX_ARM_SUM)) - LENGTH_BITS;
+    let link_offset_sum = sum_of_link_offsets(links, time_unit);
+    let length_exponent =
+        exponent_above(greater(largest, link_offset_sum / MAX_LINK_OFFSET_SUM)) - LENGTH_BITS;
     let length_unit = 2f64.powi(length_exponent);
-    let rounding = checker_error(links, time_unit, length_unit, 2.0 * largest + arm_sum)
-        + ROUNDING * largest * (scene.links.len() + 2) as f64;
+    let rounding = checker_error(
+        links,
+        time_unit,
+        length_unit,
+        2.0 * largest + link_offset_sum,
+    ) + ROUNDING * largest * (scene.links.len() + 2) as f64;
     let mut bytes = b"CCDPROF1".to_vec();
     bytes.extend(length_exponent.to_le_bytes());
     bytes.extend(time_unit.to_le_bytes());
@@ -135,7 +140,7 @@ fn write_statement(
     }
     for link in &links[1..] {
         bytes.extend((link.parent as u32).to_le_bytes());
-        let (before, axes, after) = link.screw.numbers();
+        let (before, axes, after) = link.encoded.numbers();
         write_numbers(&mut bytes, before);
         bytes.extend(axes.to_le_bytes());
         write_numbers(&mut bytes, after);
@@ -153,61 +158,62 @@ fn write_statement(
     if let Some(witness) = witness {
         write_witness(&mut bytes, scene, links, (witness, rounding))?;
     }
-    Ok(Written {
+    Ok(WrittenStatement {
         bytes,
         length_exponent,
         rounding,
     })
 }
 
-/// Returns the statement of a certificate of a scene, without a witness. Returns `None` if a number is too small for a certificate.
+/// Returns the statement about a scene, without a witness. Returns `None` if a number is too small for a certificate.
 pub(crate) fn statement_of(scene: &Scene<'_>, until: f64) -> Option<Statement> {
     let links = link_motions(&scene.links, exponent_above(until)).ok()?;
     let written = write_statement(scene, &links, until, None).ok()?;
     Statement::read(&written.bytes)
 }
 
-/// Returns the sum of the absolute coordinates of all arms and of their changes in the unit of time.
-fn sum_of_arms(links: &[LinkMotion], time_unit: i32) -> f64 {
+/// Returns the sum of the absolute coordinates of all link offsets and of their changes in the unit of time.
+fn sum_of_link_offsets(links: &[LinkMotion], time_unit: i32) -> f64 {
     let lengths = links.iter().map(|link| {
-        let arm_change = link.velocity * 2f64.powi(time_unit);
-        (link.arm.abs() + arm_change.abs()).element_sum()
+        let link_offset_change = link.velocity * 2f64.powi(time_unit);
+        (link.link_offset.abs() + link_offset_change.abs()).element_sum()
     });
     lengths.sum()
 }
 
-/// Returns 8 L of the checker's README, which bounds the checker's error of a height. `lengths` is the reach of a part plus the sum
-/// of the arms.
+/// Returns 8 L(r) of the checker's README. It bounds the checker's error of a signed distance. `lengths` is r plus the sum of the
+/// link offsets.
 fn checker_error(links: &[LinkMotion], time_unit: i32, length_unit: f64, lengths: f64) -> f64 {
     let parameter_sum = |link: &LinkMotion| {
         3.0 + link
-            .screw
+            .encoded
             .parameter_magnitudes(time_unit)
             .iter()
             .sum::<f64>()
     };
     let rotation_error = links.iter().map(parameter_sum).sum::<f64>() * ROTATION_ERROR;
     8.0 * (13.0 * length_unit * (links.len() + 1) as f64
-        + rotation_error * (lengths + ADDED_TO_ARM_SUM * length_unit))
+        + rotation_error * (lengths + ADDED_TO_LINK_OFFSET_SUM * length_unit))
 }
 
-/// Returns an upper bound of the lengths that the checker computes with.
+/// Returns an upper bound of all lengths in the checker's computations.
 fn largest_length(scene: &Scene<'_>, links: &[LinkMotion], time_unit: i32) -> f64 {
     let margins = scene.pairs.iter().map(|pair| pair.margin);
     let mut largest = margins.fold(0.0, greater);
-    let mut reaches: Vec<f64> = Vec::new();
+    // The largest distance of each link's center from the origin.
+    let mut distances: Vec<f64> = Vec::new();
     for link in links {
-        let arm_change = link.velocity.length() * 2f64.powi(time_unit);
-        // Twice the lengths also bound the vectors that the checker adds up to an arm, except the centers.
-        let reach =
-            reaches.get(link.parent).unwrap_or(&0.0) + 2.0 * (link.arm.length() + arm_change);
-        reaches.push(reach);
-        largest = greater(largest, reach + link.screw.center.length());
+        let link_offset_change = link.velocity.length() * 2f64.powi(time_unit);
+        // Twice the lengths also bound the vectors that the checker adds up to a link offset, except the centers.
+        let distance = distances.get(link.parent).unwrap_or(&0.0)
+            + 2.0 * (link.link_offset.length() + link_offset_change);
+        distances.push(distance);
+        largest = greater(largest, distance + link.encoded.center.length());
     }
-    for placed in &scene.bodies {
-        let tree = &placed.body.tree;
-        let reach = tree.reach(Tree::WHOLE, DVec3::ZERO);
-        largest = greater(largest, tree.largest_radius() + reach);
+    for SceneBody { body, .. } in &scene.bodies {
+        let tree = &body.tree;
+        let distance = tree.max_distance(Tree::ROOT, DVec3::ZERO);
+        largest = greater(largest, tree.largest_radius() + distance);
     }
     largest
 }
@@ -216,7 +222,7 @@ fn write_numbers(bytes: &mut Vec<u8>, numbers: impl IntoIterator<Item = f64>) {
     bytes.extend(numbers.into_iter().flat_map(|x| x.to_le_bytes()));
 }
 
-/// Writes a witness: the triangles of both points, and the weights of their corners. If the tolerance is too small only because of
+/// Writes a witness: for each point the triangle and its barycentric weights. If the tolerance is too small, but only because of
 /// rounding, writes the smallest tolerance that the checker accepts.
 fn write_witness(
     bytes: &mut Vec<u8>,
@@ -224,31 +230,34 @@ fn write_witness(
     links: &[LinkMotion],
     (witness, rounding): (Witness, f64),
 ) -> Result<(), NotProven> {
-    let points = mesh_points(scene, links, witness);
+    let points = nearest_mesh_points(scene, links, witness);
     let [a, b] = &points;
     let distance = a.ball.truncate().distance(b.ball.truncate()) - a.ball.w - b.ball.w;
-    let needed = distance + rounding - scene.pairs[witness.pair].margin;
-    if !(needed <= witness.tolerance + 2.0 * rounding) {
+    let min_tolerance = distance + rounding - scene.pairs[witness.pair].margin;
+    if !(min_tolerance <= witness.tolerance + 2.0 * rounding) {
         return Err(NotProven::NoContact { distance });
     }
     bytes.extend((witness.pair as u32).to_le_bytes());
-    write_numbers(bytes, [witness.time, greater(witness.tolerance, needed)]);
+    write_numbers(
+        bytes,
+        [witness.time, greater(witness.tolerance, min_tolerance)],
+    );
     for point in points {
         bytes.extend((point.triangle as u32).to_le_bytes());
-        // The third weight completes the sum to 1, and none is negative, whatever the rounding.
-        let (whole, weights) = (WEIGHT_SCALE as u64, point.weights);
+        // The third weight is the difference to 1. The limits of the others keep it non-negative after rounding.
+        let (one, weights) = (WEIGHT_SCALE as u64, point.weights);
         let [a, b, _] = weights.map(|weight| (weight * WEIGHT_SCALE) as u64);
-        let a = a.min(whole);
-        let b = b.min(whole - a);
-        for weight in [a, b, whole - a - b] {
+        let a = a.min(one);
+        let b = b.min(one - a);
+        for weight in [a, b, one - a - b] {
             bytes.extend(&weight.to_le_bytes()[..7]);
         }
     }
     Ok(())
 }
 
-/// Finds the nearest points of both meshes to the points of a witness, in the world.
-pub(crate) fn mesh_points(
+/// Returns, for each point of a witness, the nearest point of its body's mesh, in the world.
+pub(crate) fn nearest_mesh_points(
     scene: &Scene<'_>,
     links: &[LinkMotion],
     witness: Witness,
@@ -256,9 +265,9 @@ pub(crate) fn mesh_points(
     let states = link_states(links, witness.time, 0.0);
     [0, 1].map(|k| {
         let SceneBody { body, link } = scene.bodies[scene.pairs[witness.pair].bodies[k]];
-        let (state, center) = (&states[link], links[link].screw.center);
-        let local = state.rotation.transpose() * (witness.points[k] - state.center);
-        let nearest = MeshPoint::nearest(&body.tree, local + center);
+        let (state, center) = (&states[link], links[link].encoded.center);
+        let from_link_center = state.rotation.transpose() * (witness.points[k] - state.center);
+        let nearest = MeshPoint::nearest(&body.tree, from_link_center + center);
         let in_world = state.center + state.rotation * (nearest.ball.truncate() - center);
         MeshPoint {
             ball: in_world.extend(nearest.ball.w),

@@ -1,12 +1,12 @@
 //! Proofs of the paths of a small robot, including paths at the checker's limits.
 
-use ccd_prove::{NotProven, PathNotProven, Proof, ProvenCell, StatedLink, Statement};
+use ccd_prove::{NotProven, PathNotProven, Proof, ProvenCell, Statement, StatementLink};
 use rigid_ccd::{Body, Pose, Settings, StartPolicy, trajectory};
 use rigid_ccd_robot::{Cell, Joint, Link, LinkPairs, PositionRule, Robot};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// Returns a cell with a car that slides along x towards an obstacle, and a turning wheel beside it. The wheel may have a body.
+/// Returns a cell with an obstacle, a car on a prismatic joint along x, and a wheel on a revolute joint. The wheel may have a body.
 fn cell(car: Body, obstacle: (Body, f64), wheel: Option<Body>) -> Cell {
     let joint = |parent: &str, child: &str, geometry| Joint {
         name: child.into(),
@@ -63,7 +63,7 @@ fn prove_with(
     Ok(proofs)
 }
 
-/// Tests a body inside another one, which counts as a contact although their surfaces are apart.
+/// Tests a body inside another body. The engine reports a contact, although the surfaces are apart.
 #[test]
 fn a_body_in_another_at_the_start_has_no_proof() {
     let ball = || Body::sphere(0.1).unwrap();
@@ -74,7 +74,7 @@ fn a_body_in_another_at_the_start_has_no_proof() {
     }
 }
 
-/// Tests a flag that is set after the answer is found.
+/// Tests a stop flag that is set after the query.
 #[test]
 fn a_proof_ends_when_it_is_stopped() {
     let cell = cell(block(0.1), (block(0.1), 2.0), None);
@@ -94,7 +94,7 @@ fn a_proof_ends_when_it_is_stopped() {
     assert_eq!(prove(true).unwrap_err(), stopped);
 }
 
-/// Tests answers that do not contain the time until which the path is free.
+/// Tests answers to questions for which the free time of the path is not certified.
 #[test]
 fn answers_to_other_questions_are_not_proven() {
     let cell = cell(block(0.1), (block(0.1), 2.0), None);
@@ -109,7 +109,8 @@ fn answers_to_other_questions_are_not_proven() {
     }
 }
 
-/// Tests a pair that starts within the tolerance, under the policy `Leave`. It has a proof if there is a gap, and else an error.
+/// Tests a pair that starts within the tolerance, with the policy `Leave`. If there is a gap, the answer is proven. Otherwise the proof
+/// is an error.
 #[test]
 fn a_pair_in_contact_at_the_start_is_proven_if_it_has_a_gap() {
     let path = [[0.0, 0.0], [-0.5, 0.0]];
@@ -126,7 +127,7 @@ fn a_pair_in_contact_at_the_start_is_proven_if_it_has_a_gap() {
     }
 }
 
-/// Tests a gap that equals the tolerance up to rounding, at the start of a path and between two segments.
+/// Tests a gap that equals the tolerance up to rounding. The gap is at the start of a path, or between two segments.
 #[test]
 fn a_contact_at_the_tolerance_is_proven() {
     let at = 2.0 + Settings::DEFAULT.tolerance;
@@ -137,24 +138,24 @@ fn a_contact_at_the_tolerance_is_proven() {
     assert_eq!(prove_and_check(&cell, &path).unwrap().len(), 2);
 }
 
-/// Tests a wheel that turns too far. Only a wheel with a body is in the statement.
+/// Tests a wheel that rotates too far. A statement contains the wheel only if it has a body.
 #[test]
-fn turns_beyond_the_range_of_the_checker_are_refused() {
+fn rotations_beyond_the_range_of_the_checker_are_refused() {
     for (from, to) in [(300.0, 300.5), (0.0, 129.0)] {
         let path = [[0.0, from], [0.5, to]];
-        let unused = cell(block(1.0), (block(1.0), 9.0), None);
-        assert_eq!(prove_and_check(&unused, &path).unwrap().len(), 1);
-        let used = cell(block(1.0), (block(1.0), 9.0), Some(block(0.5)));
-        let refused = prove_and_check(&used, &path).map(|proofs| proofs.len());
-        let reason = NotProven::TurnsTooFar { link: 2 };
+        let without_body = cell(block(1.0), (block(1.0), 9.0), None);
+        assert_eq!(prove_and_check(&without_body, &path).unwrap().len(), 1);
+        let with_body = cell(block(1.0), (block(1.0), 9.0), Some(block(0.5)));
+        let refused = prove_and_check(&with_body, &path).map(|proofs| proofs.len());
+        let reason = NotProven::RotationTooLarge { link: 2 };
         assert_eq!(refused, Err(PathNotProven::Segment { segment: 0, reason }));
     }
-    let used = cell(block(1.0), (block(1.0), 9.0), Some(block(0.5)));
+    let with_body = cell(block(1.0), (block(1.0), 9.0), Some(block(0.5)));
     let path = [[0.0, 255.0], [0.5, 129.0]];
-    assert_eq!(prove_and_check(&used, &path).unwrap().len(), 1);
+    assert_eq!(prove_and_check(&with_body, &path).unwrap().len(), 1);
 }
 
-/// Tests that joint positions are read back exactly, although the prover scales those of sliding joints by powers of two.
+/// Tests that joint positions are read back exactly, although the prover scales the positions of prismatic joints by powers of two.
 #[test]
 fn positions_of_joints_are_read_from_statements() {
     let cell = cell(block(0.5), (block(0.5), 900.0), Some(block(1.0)));
@@ -185,7 +186,7 @@ fn positions_of_joints_are_read_from_statements() {
     }
 }
 
-/// Tests changes to the joints of a statement, in the numbers that a power of two may scale.
+/// Tests changes of joints in a statement, also of the numbers that the prover may scale by a power of two.
 #[test]
 fn statements_about_other_joints_are_rejected() {
     let cell = cell(block(0.5), (block(0.5), 900.0), Some(block(1.0)));
@@ -193,7 +194,7 @@ fn statements_about_other_joints_are_rejected() {
     let proof = &prove_and_check(&cell, &[[0.1, 0.2], [0.3, -0.4]]).unwrap()[0];
     let statement = Statement::read(&proof.bytes).unwrap();
     assert!(proven.joints_of(&statement, 0.0).is_some());
-    let changes: [fn(&mut StatedLink); 8] = [
+    let changes: [fn(&mut StatementLink); 8] = [
         |link| link.velocity[0] *= 3.0,
         |link| link.velocity[0] *= -1.0,
         |link| link.velocity[1] = 1.0,

@@ -15,8 +15,8 @@ fn prove_point_and_edge(a: ([f64; 3], Motion), b: ([[f64; 3]; 2], Motion), until
     assert_eq!(ccd_check::check(&bodies, &proof.bytes), Ok(()));
 }
 
-fn flight(place: [f64; 3], velocity: [f64; 3], spin: [f64; 3]) -> Motion {
-    Motion::new(Pose::at(place).unwrap(), velocity, spin).unwrap()
+fn flight(position: [f64; 3], velocity: [f64; 3], angular_velocity: [f64; 3]) -> Motion {
+    Motion::new(Pose::at(position).unwrap(), velocity, angular_velocity).unwrap()
 }
 
 /// Tests a tiny gap beside a long edge. The error of the normal has to be smaller than the gap divided by the length.
@@ -25,12 +25,12 @@ fn flight(place: [f64; 3], velocity: [f64; 3], spin: [f64; 3]) -> Motion {
 fn a_point_is_proven_to_fly_until_a_billionth_from_an_edge() {
     let from = [-3.523_344_703_336_752_6, -6.983_016_521_509_961_5, 0.0];
     let to = [3.018_689_460_797_075, -8.551_274_266_649_145, 0.0];
-    let place = [-9.250_086_831_160_303, -1.327_086_326_752_282_6, 0.0];
+    let position = [-9.250_086_831_160_303, -1.327_086_326_752_282_6, 0.0];
     let velocity = [156.693_014_898_532_9, -113.924_839_249_120_31, 0.0];
-    let of_edge = [0.717_640_086_133_783_9, -2.686_221_661_748_289_2, 0.0];
+    let edge_velocity = [0.717_640_086_133_783_9, -2.686_221_661_748_289_2, 0.0];
     prove_point_and_edge(
-        ([0.0; 3], flight(place, velocity, [0.0; 3])),
-        ([from, to], flight([0.0; 3], of_edge, [0.0; 3])),
+        ([0.0; 3], flight(position, velocity, [0.0; 3])),
+        ([from, to], flight([0.0; 3], edge_velocity, [0.0; 3])),
         0.057_998_924_760_781_87,
     );
 }
@@ -53,12 +53,15 @@ fn a_point_is_proven_to_turn_until_a_hundred_billionth_from_an_edge() {
 /// Source: `ipc-toolkit`'s test "Point-Triangle CCD General".
 #[test]
 fn bodies_that_fly_side_by_side_are_proven_apart() {
-    let along = [3.0, 1.0, -2.0];
+    let common_velocity = [3.0, 1.0, -2.0];
     prove_point_and_edge(
-        ([0.0; 3], flight([0.0, 0.0, 1e-6], along, [0.0; 3])),
+        (
+            [0.0; 3],
+            flight([0.0, 0.0, 1e-6], common_velocity, [0.0; 3]),
+        ),
         (
             [[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
-            flight([0.0; 3], along, [0.0; 3]),
+            flight([0.0; 3], common_velocity, [0.0; 3]),
         ),
         1.0,
     );
@@ -69,8 +72,8 @@ fn bodies_that_fly_side_by_side_are_proven_apart() {
 fn a_velocity_that_loses_bits_is_refused() {
     let point = Body::new(&[[0.0; 3]], &[[0; 3]]);
     let velocity = [3.0 * 5e-324, 0.0, 0.0];
-    let verdict = |spin: f64| {
-        let motion = flight([0.0, 0.0, 1.0], velocity, [0.0, 0.0, spin]);
+    let verdict = |angular_velocity: f64| {
+        let motion = flight([0.0, 0.0, 1.0], velocity, [0.0, 0.0, angular_velocity]);
         let scene = Scene::of_two((&point, motion), (&point, Motion::STILL), 0.0);
         prove(&scene, 1.0, None).map(|_| ())
     };

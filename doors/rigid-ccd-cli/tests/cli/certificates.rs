@@ -374,7 +374,7 @@ fn a_proof_of_positions_that_a_robot_cannot_have_is_refused() {
     let text = of("own.urdf", 3);
     assert_contains(
         &text,
-        "impossible: joint grip2 is at 0.01, but follows grip, which moves it to -0.01",
+        "impossible: joint grip2 is at 0.01, but by its mimic rule for grip it would be at -0.01",
     );
     assert_contains(&text, "row 0 (line 2) open: has no proof");
     let text = of("tight.urdf", 3);

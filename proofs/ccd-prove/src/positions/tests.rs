@@ -3,7 +3,7 @@ use ccd_core::Pose;
 use rigid_ccd::trajectory;
 use rigid_ccd_robot::Link;
 
-/// Returns a gripper with three fingers. The second one follows the first one by a rule, and the third one follows the second one.
+/// Returns a gripper with three fingers. The second finger mimics the first, and the third finger mimics the second.
 fn gripper(factor: f64, offset: f64) -> Robot {
     let joint = |name: &str, rule| Joint {
         name: name.into(),
@@ -28,22 +28,22 @@ fn gripper(factor: f64, offset: f64) -> Robot {
     Robot::new(links.map(Link::named).to_vec(), joints).unwrap()
 }
 
-fn problem(robot: &Robot, joints: &[(&str, [f64; 2])]) -> String {
+fn error_text(robot: &Robot, joints: &[(&str, [f64; 2])]) -> String {
     check_positions(robot, joints).unwrap_err().to_string()
 }
 
 #[test]
-fn a_finger_that_does_not_follow_is_impossible() {
+fn a_finger_that_breaks_its_mimic_rule_is_refused() {
     let robot = gripper(-1.0, 0.0);
     let both = |second| [("grip", [0.01, 0.05]), ("grip2", second)];
     assert_eq!(check_positions(&robot, &both([-0.01, -0.05])), Ok(()));
     assert_eq!(
-        problem(&robot, &both([0.01, 0.05])),
-        "joint grip2 is at 0.01, but follows grip, which moves it to -0.01"
+        error_text(&robot, &both([0.01, 0.05])),
+        "joint grip2 is at 0.01, but by its mimic rule for grip it would be at -0.01"
     );
     assert_eq!(
-        problem(&robot, &both([-0.01, -0.050_000_001])),
-        "joint grip2 is at -0.050000001, but follows grip, which moves it to -0.05"
+        error_text(&robot, &both([-0.01, -0.050_000_001])),
+        "joint grip2 is at -0.050000001, but by its mimic rule for grip it would be at -0.05"
     );
     assert!(check_positions(&robot, &both([-0.01, f64::NAN])).is_err());
 }
@@ -52,17 +52,17 @@ fn a_finger_that_does_not_follow_is_impossible() {
 fn limits_are_kept_at_both_ends() {
     let robot = gripper(1.0, 0.0);
     assert_eq!(check_positions(&robot, &[("grip", [0.0, 0.05])]), Ok(()));
-    let text = problem(&robot, &[("grip", [0.0, 0.050_001])]);
+    let text = error_text(&robot, &[("grip", [0.0, 0.050_001])]);
     assert_eq!(
         text,
         "joint grip is at 0.050001, beyond its limits 0 to 0.05"
     );
     assert!(check_positions(&robot, &[("grip", [-1e-9, 0.0])]).is_err());
-    // If a followed joint is not in the statement, its position follows from its followers.
-    let text = problem(&robot, &[("grip2", [0.0, 0.06])]);
+    // The statement has no position of `grip`. It is computed from a follower.
+    let text = error_text(&robot, &[("grip2", [0.0, 0.06])]);
     assert_eq!(text, "joint grip is at 0.06, beyond its limits 0 to 0.05");
-    let text = problem(&robot, &[("grip2", [0.0, 0.05]), ("grip3", [0.1, 0.2])]);
-    let begin = "joint grip3 is at 0.2, but follows grip, which moves it to 0.25";
+    let text = error_text(&robot, &[("grip2", [0.0, 0.05]), ("grip3", [0.1, 0.2])]);
+    let begin = "joint grip3 is at 0.2, but by its mimic rule for grip it would be at 0.25";
     assert!(text.starts_with(begin), "{text}");
 }
 

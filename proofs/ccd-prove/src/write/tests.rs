@@ -2,7 +2,7 @@ use super::*;
 use crate::Body;
 use ccd_core::{Motion, Pose};
 
-/// Proves two pairs with an unlimited cache, and with one that is full after two intervals.
+/// Proves two pairs with an unlimited cache, and with a cache that is full after two intervals.
 #[test]
 fn a_full_cache_is_emptied_and_the_proof_still_holds() {
     let rod = Body::new(&[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]], &[[0, 1, 1]]);
@@ -12,19 +12,19 @@ fn a_full_cache_is_emptied_and_the_proof_still_holds() {
     scene.pairs.push(scene.pairs[0]);
     let links = link_motions(&scene.links, 0).unwrap();
     let statement = write_statement(&scene, &links, 1.0, None).unwrap();
-    let cover = |max_cached_states| {
-        let limits = CoverLimits {
+    let subdivide = |max_cached_states| {
+        let limits = SubdivisionLimits {
             until: 1.0,
             stop: None,
             max_cached_states,
         };
-        cover_pairs((&scene, &links), &statement, limits).unwrap()
+        subdivide_pairs((&scene, &links), &statement, limits).unwrap()
     };
-    let (unlimited, limited) = (cover(usize::MAX), cover(2 * links.len()));
+    let (unlimited, limited) = (subdivide(usize::MAX), subdivide(2 * links.len()));
     assert!(unlimited.cached_states() > 10 * links.len());
     assert!(limited.cached_states() <= 3 * links.len());
-    for cover in [unlimited, limited] {
-        let bytes = [&statement.bytes[..], &cover.steps].concat();
+    for subdivision in [unlimited, limited] {
+        let bytes = [&statement.bytes[..], &subdivision.steps].concat();
         let mesh = ccd_check::Body::new(rod.mesh(), rod.certificate(), &bytes).unwrap();
         assert_eq!(ccd_check::check(&[mesh], &bytes), Ok(()));
     }

@@ -3,7 +3,7 @@
 use super::{Meshes, Random, WITNESSES_AT, proofs};
 use ccd_check::Stop;
 use ccd_core::{Motion, Pose};
-use ccd_prove::{Proof, StatedLink, Statement, steps_text};
+use ccd_prove::{Proof, Statement, StatementLink, steps_text};
 use rigid_ccd::Solver;
 
 /// The number of bytes of a witness.
@@ -31,14 +31,14 @@ fn each_kind_of_forgery_is_rejected() {
     let bodies = meshes.bodies(&proof.bytes);
     let reason_of = |bytes: &[u8]| reason(ccd_check::check(&bodies, bytes));
     assert_eq!(ccd_check::check(&bodies, &proof.bytes), Ok(()));
-    // The last leaf is missing, or there is an additional leaf.
+    // The last leaf is missing, or it is repeated.
     let end = proof.bytes.len();
     assert_eq!(
         reason_of(&proof.bytes[..end - PLANE]),
         "the file ends too early"
     );
-    let longer = [&proof.bytes[..], &proof.bytes[end - PLANE..]].concat();
-    assert_eq!(reason_of(&longer), "the file has bytes after its end");
+    let lengthened = [&proof.bytes[..], &proof.bytes[end - PLANE..]].concat();
+    assert_eq!(reason_of(&lengthened), "the file has bytes after its end");
     // A normal is zero or too long, or the plane is on the far side of A or of B.
     let with_plane = |normal: [i64; 3], offset: Option<i64>| {
         let mut bytes = proof.bytes.clone();
@@ -50,36 +50,36 @@ fn each_kind_of_forgery_is_rejected() {
         }
         bytes
     };
-    let not_apart = "a leaf does not prove its parts apart";
+    let not_apart = "a leaf does not prove its nodes apart";
     assert_eq!(reason_of(&with_plane([0; 3], None)), not_apart);
     assert_eq!(reason_of(&with_plane([1 << 50, 1, 0], None)), not_apart);
     let normal = [1, 8, 15].map(|k| {
         let bytes = &proof.bytes[end - PLANE + k..end - PLANE + k + 7];
-        let high = if bytes[6] < 128 { 0 } else { 255 };
-        i64::from_le_bytes([&[high], bytes].concat().try_into().unwrap()) >> 8
+        let sign_byte = if bytes[6] < 128 { 0 } else { 255 };
+        i64::from_le_bytes([&[sign_byte], bytes].concat().try_into().unwrap()) >> 8
     });
     for offset in [-(1 << 55), (1 << 55) - 1] {
         assert_eq!(reason_of(&with_plane(normal, Some(offset))), not_apart);
     }
-    // A single leaf stands for all steps.
+    // The only step is a single leaf.
     for leaf in [&[6][..], &[7], &proof.bytes[end - PLANE..]] {
         let contact = &contacts[0].1;
-        let nothing = [&contact.bytes[..WITNESSES_AT], &[0; 4], leaf].concat();
-        let verdict = ccd_check::check(&meshes.bodies(&contact.bytes), &nothing);
+        let single_leaf = [&contact.bytes[..WITNESSES_AT], &[0; 4], leaf].concat();
+        let verdict = ccd_check::check(&meshes.bodies(&contact.bytes), &single_leaf);
         assert_eq!(reason(verdict), not_apart);
     }
     // The opcode of the last leaf is out of range.
-    let mut around = with_ball.bytes.clone();
-    *around.last_mut().unwrap() = 8;
+    let mut with_bad_opcode = with_ball.bytes.clone();
+    *with_bad_opcode.last_mut().unwrap() = 8;
     let bodies_of_ball = meshes.bodies(&with_ball.bytes);
     assert_eq!(
-        reason(ccd_check::check(&bodies_of_ball, &around)),
+        reason(ccd_check::check(&bodies_of_ball, &with_bad_opcode)),
         "there is no such step"
     );
-    // One of the meshes is not given.
+    // One of the meshes is missing.
     assert_eq!(
         reason(ccd_check::check(&bodies[..1], &proof.bytes)),
-        "a mesh is not given in this unit"
+        "a mesh of the statement is missing, or was read in another unit"
     );
 }
 
@@ -87,7 +87,7 @@ fn each_kind_of_forgery_is_rejected() {
 fn contacts_with_a_later_time_are_rejected() {
     let meshes = Meshes::new();
     let [_, contacts] = proofs(&meshes, 10);
-    // The statement says that the bodies are free for longer, with a later contact or without one.
+    // The statement claims that the bodies stay apart for longer. It has the witness of the contact, or no witness.
     for (_, proof) in &contacts {
         let bodies = meshes.bodies(&proof.bytes);
         let mut bytes = proof.bytes.clone();
@@ -95,10 +95,10 @@ fn contacts_with_a_later_time_are_rejected() {
         let time = f64::from_le_bytes(bytes[until.clone()].try_into().unwrap());
         bytes[until].copy_from_slice(&(time + 0.01).to_le_bytes());
         assert!(ccd_check::check(&bodies, &bytes).is_err());
-        let mut free = bytes[..WITNESSES_AT].to_vec();
-        free.extend([0; 4]);
-        free.extend(&bytes[WITNESSES_AT + 4 + WITNESS..]);
-        assert!(ccd_check::check(&bodies, &free).is_err());
+        let mut without_witness = bytes[..WITNESSES_AT].to_vec();
+        without_witness.extend([0; 4]);
+        without_witness.extend(&bytes[WITNESSES_AT + 4 + WITNESS..]);
+        assert!(ccd_check::check(&bodies, &without_witness).is_err());
     }
 }
 
@@ -109,7 +109,7 @@ fn witnesses_with_far_points_or_wrong_weights_are_rejected() {
     let triangle = WITNESSES_AT + 4 + 4 + 16;
     for (_, proof) in &contacts {
         let bodies = meshes.bodies(&proof.bytes);
-        // The triangle is another one or does not exist, or the weights add up to more or less than 1.
+        // The witness has another triangle, a triangle that does not exist, or weights whose sum is not 1.
         let verdict_with = |at: usize, with: &[u8]| {
             let mut bytes = proof.bytes.clone();
             bytes[at..at + with.len()].copy_from_slice(with);
@@ -136,26 +136,26 @@ fn a_tree_that_omits_a_triangle_or_belongs_to_another_mesh_is_rejected() {
         reason(ccd_check::Body::new(mesh, certificate, &proof).map(|_| ()))
     };
     // The last triangle of the tree is replaced by an earlier one.
-    let mut twice = body.certificate().to_vec();
-    let end = twice.len();
-    let places = (40..end - 4).step_by(4).rev();
-    let number = |at: usize| u32::from_le_bytes(twice[at..at + 4].try_into().unwrap());
-    let another = places.map(number).find(|&other| other > 144).unwrap();
-    twice[end - 4..].copy_from_slice(&another.to_le_bytes());
+    let mut with_duplicate = body.certificate().to_vec();
+    let end = with_duplicate.len();
+    let positions = (40..end - 4).step_by(4).rev();
+    let number = |at: usize| u32::from_le_bytes(with_duplicate[at..at + 4].try_into().unwrap());
+    let other_triangle = positions.map(number).find(|&other| other > 144).unwrap();
+    with_duplicate[end - 4..].copy_from_slice(&other_triangle.to_le_bytes());
     assert_eq!(
-        read(body.mesh(), &twice),
+        read(body.mesh(), &with_duplicate),
         "a tree contains a triangle twice"
     );
     // A coordinate of a vertex changes by one unit in the last place.
-    let mut moved = body.mesh().to_vec();
-    moved[8] ^= 1;
+    let mut changed_mesh = body.mesh().to_vec();
+    changed_mesh[8] ^= 1;
     let other = "the certificate belongs to another mesh";
-    assert_eq!(read(&moved, body.certificate()), other);
-    let short = &body.certificate()[..body.certificate().len() - 1];
-    assert_eq!(read(body.mesh(), short), "the file ends too early");
+    assert_eq!(read(&changed_mesh, body.certificate()), other);
+    let shortened = &body.certificate()[..body.certificate().len() - 1];
+    assert_eq!(read(body.mesh(), shortened), "the file ends too early");
 }
 
-/// Changes random bits of proofs. A statement that is still accepted has to be true for the motions in it.
+/// Changes random bits of proofs. If the checker still accepts a proof, its changed statement has to be true.
 #[test]
 fn no_false_random_forgery_is_accepted() {
     let meshes = Meshes::new();
@@ -186,15 +186,16 @@ fn no_false_random_forgery_is_accepted() {
     assert!(accepted > 100 && refused > 3000, "{accepted} {refused}");
 }
 
-/// Returns whether the engine finds no contact at sampled times until the stated time.
+/// Returns whether the engine finds no contact at sampled times until the end time of the statement.
 fn is_true(meshes: &Meshes, bytes: &[u8]) -> bool {
     let statement = Statement::read(bytes).unwrap();
-    let motion = |link: &StatedLink| {
-        let [velocity, spin] = [link.velocity, link.axis].map(|v| v.map(|x| x * link.rate));
+    let motion = |link: &StatementLink| {
+        let [velocity, angular_velocity] =
+            [link.velocity, link.axis].map(|v| v.map(|x| x * link.rate));
         let start = Pose::new(link.position, link.quaternion).unwrap();
-        // With other axes or another start the link is not a freely moving body.
+        // Otherwise the link is not a freely moving body.
         let is_free = link.axes == 0 && link.start == 0.0;
-        is_free.then(|| Motion::about(start, velocity, spin, link.center).unwrap())
+        is_free.then(|| Motion::about(start, velocity, angular_velocity, link.center).unwrap())
     };
     let [Some(a), Some(b)] = [&statement.links[0], &statement.links[1]].map(motion) else {
         return true;

@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 /// The position of the number of witnesses in a certificate of two free bodies.
 const WITNESSES_AT: usize = 28 + 2 * 152 + 2 * 36 + 16 + 8;
 
-/// Returns the mesh of a torus about z.
+/// Returns the mesh of a torus about z, with `count` vertices in both directions.
 fn torus(count: usize, radius: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     let number = |i: usize, j: usize| ((i % count) * count + j % count) as u32;
@@ -41,7 +41,7 @@ fn rounded((vertices, faces): &(Vec<[f64; 3]>, Vec<[u32; 3]>), radius: f64) -> B
     Body::rounded(&vertices, faces)
 }
 
-/// A generator of numbers from -1 to 1.
+/// A generator of random numbers from -1 to 1.
 struct Random(u64);
 
 impl Random {
@@ -64,9 +64,9 @@ impl Random {
     }
 
     fn motion(&mut self) -> Motion {
-        let place = DVec3::from_array(self.vector(2.0));
-        let turn = [self.number(), self.number(), self.number(), self.number()];
-        let start = Pose::new(place, turn).unwrap();
+        let position = DVec3::from_array(self.vector(2.0));
+        let quaternion = [self.number(), self.number(), self.number(), self.number()];
+        let start = Pose::new(position, quaternion).unwrap();
         Motion::about(start, self.vector(3.0), self.vector(4.0), self.vector(0.3)).unwrap()
     }
 }
@@ -169,7 +169,8 @@ fn contacts_within_a_billionth_are_proven() {
 #[test]
 fn a_wheel_that_turns_around_another_one_is_proven_free() {
     let meshes = Meshes::new();
-    // Both turn about z like a wheel on its axle, so a plane that is fixed in the world separates them only for a short time.
+    // Both rotate about z, and their surfaces are near each other. So a plane that is static in the world separates two nodes only
+    // for a short time.
     let turning = |height: f64, rate: f64| {
         let start = Pose::at([0.0, 0.0, height]).unwrap();
         Motion::new(start, [0.0; 3], [0.0, 0.0, rate]).unwrap()
@@ -181,7 +182,7 @@ fn a_wheel_that_turns_around_another_one_is_proven_free() {
     assert_eq!(meshes.check(&proof), Ok(()));
 }
 
-/// Returns two arms on one turning column, each with a revolute joint and a prismatic joint.
+/// Returns two robot arms on one rotating column, each with a revolute joint and a prismatic joint.
 fn arms(meshes: &Meshes) -> Scene<'_> {
     let joint = |parent, kind, x, axis: DVec3, [start, rate]: [f64; 2]| Link {
         parent,
@@ -217,8 +218,8 @@ fn arms(meshes: &Meshes) -> Scene<'_> {
     }
 }
 
-/// Tests a column that turns by nine radians, and moves both arms alike. An interval covers at most two radians, but needs no more
-/// leaves than with a static column.
+/// Tests a column that rotates by nine radians and carries both arms. The rotation of the column does not change their distance, so
+/// the proof has only a few times as many leaves as with a static column.
 #[test]
 fn arms_on_a_turning_column_are_proven_apart_from_each_other() {
     let meshes = Meshes::new();
@@ -230,13 +231,13 @@ fn arms_on_a_turning_column_are_proven_apart_from_each_other() {
         unreachable!()
     };
     *rate = 0.0;
-    let still = prove(&scene, 1.0, None).unwrap();
-    assert_eq!(meshes.check(&still), Ok(()));
+    let static_column = prove(&scene, 1.0, None).unwrap();
+    assert_eq!(meshes.check(&static_column), Ok(()));
     assert!(
-        turning.leaves <= 16 * still.leaves,
+        turning.leaves <= 16 * static_column.leaves,
         "{} {}",
         turning.leaves,
-        still.leaves
+        static_column.leaves
     );
 }
 
@@ -244,10 +245,10 @@ fn arms_on_a_turning_column_are_proven_apart_from_each_other() {
 fn arms_and_a_body_at_rest_are_proven_apart_unless_its_radius_reaches_them() {
     let meshes = Meshes::new();
     let mut scene = arms(&meshes);
-    let whole = prove(&scene, 1.0, None).unwrap();
-    assert_eq!(meshes.check(&whole), Ok(()));
-    let thick = rounded(&torus(9, 0.25), 3.0);
-    scene.bodies[2].body = &thick;
+    let proof = prove(&scene, 1.0, None).unwrap();
+    assert_eq!(meshes.check(&proof), Ok(()));
+    let large_body = rounded(&torus(9, 0.25), 3.0);
+    scene.bodies[2].body = &large_body;
     let touching = prove(&scene, 1.0, None);
     assert!(
         matches!(touching, Err(NotProven::Touching { .. })),
@@ -272,8 +273,8 @@ fn weights_of_witnesses_add_up_to_one() {
         points: [DVec3::new(0.0, 0.0, 0.0005), DVec3::ZERO],
     };
     let proof = prove(&scene, 0.9995, Some(witness)).unwrap();
-    let stated = Statement::read(&proof.bytes).unwrap().witness.unwrap();
-    for (_, weights) in stated.points {
+    let witness = Statement::read(&proof.bytes).unwrap().witness.unwrap();
+    for (_, weights) in witness.points {
         assert_eq!(weights.iter().sum::<u64>(), 1 << 55);
         assert_eq!(weights.iter().max(), Some(&(1 << 55)));
     }

@@ -4,21 +4,22 @@ use crate::cursor::Cursor;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// A link in the statement of a certificate, and its motion on its parent.
+/// A link in the statement of a certificate, and its motion relative to its parent.
 ///
 /// At time t a point y of the link is at `p + R c + s v + exp(s [a]×) R (y − c)` with s = start + t rate. Here p is the position, R the
 /// rotation of the quaternion, c the center, v the velocity and a the axis.
 #[derive(Clone, Debug, PartialEq)]
-pub struct StatedLink {
+pub struct StatementLink {
     /// The parent: 0 is the world, 1 the first link.
     pub parent: u32,
-    /// The position of the link's frame on the parent.
+    /// The position of the link's frame relative to the parent.
     pub position: [f64; 3],
-    /// The rotation of the link's frame on the parent, as a quaternion x, y, z, w.
+    /// The rotation of the link's frame relative to the parent, as a quaternion x, y, z, w.
     pub quaternion: [f64; 4],
-    /// The point of the link about which it turns.
+    /// The point of the link about which it rotates.
     pub center: [f64; 3],
-    /// The frame in which the velocity and the axis are given: 0 is the parent, 1 is the joint. For 1, v and a are R times them.
+    /// The frame of the coordinates of the velocity and the axis: 0 is the parent, 1 is the joint. For 1, the formula has R v and R a
+    /// instead of v and a.
     pub axes: u32,
     /// The velocity of the center, per unit of s.
     pub velocity: [f64; 3],
@@ -30,9 +31,9 @@ pub struct StatedLink {
     pub rate: f64,
 }
 
-impl StatedLink {
+impl StatementLink {
     pub(crate) fn read(cursor: &mut Cursor<'_>) -> Option<Self> {
-        Some(StatedLink {
+        Some(StatementLink {
             parent: cursor.u32()?,
             position: cursor.numbers()?,
             quaternion: cursor.numbers()?,
@@ -45,12 +46,12 @@ impl StatedLink {
         })
     }
 
-    /// Undoes the scaling by a power of two that the prover applied, and returns the same motion in the numbers that it was given in.
+    /// Returns the same motion without the prover's scaling by a power of two.
     ///
-    /// A free motion then has its velocity and angular velocity per time, with rate 1. A joint has an axis whose largest coordinate is
-    /// above 1/2, and at most 1. A link that was not scaled is returned as it is.
+    /// A free motion then has rate 1, and its velocity and angular velocity are per time. The axis of a joint has a largest coordinate
+    /// above 1/2 and at most 1. Returns a copy if the link was not scaled.
     #[must_use]
-    pub fn as_given(&self) -> Self {
+    pub fn without_scaling(&self) -> Self {
         let [velocity, axis] = [self.velocity, self.axis].map(DVec3::from_array);
         let factor = if self.axes == 0 {
             if self.start == 0.0 { self.rate } else { 1.0 }
@@ -62,19 +63,20 @@ impl StatedLink {
                 1.0
             }
         };
-        let as_given = StatedLink {
+        let unscaled = StatementLink {
             velocity: (velocity * factor).to_array(),
             axis: (axis * factor).to_array(),
             start: self.start / factor,
             rate: self.rate / factor,
             ..self.clone()
         };
-        let unscaled = |v: [f64; 3]| (DVec3::from_array(v) / factor).to_array();
+        let scaled_again = |v: [f64; 3]| (DVec3::from_array(v) / factor).to_array();
         let is_same_motion = is_power_of_two(factor)
-            && (unscaled(as_given.velocity), unscaled(as_given.axis)) == (self.velocity, self.axis)
-            && (as_given.start * factor, as_given.rate * factor) == (self.start, self.rate);
+            && (scaled_again(unscaled.velocity), scaled_again(unscaled.axis))
+                == (self.velocity, self.axis)
+            && (unscaled.start * factor, unscaled.rate * factor) == (self.start, self.rate);
         if is_same_motion {
-            as_given
+            unscaled
         } else {
             self.clone()
         }
@@ -82,14 +84,14 @@ impl StatedLink {
 
     /// Returns the bits of all numbers of the link without the prover's scaling, for comparison.
     pub(crate) fn numbers(&self) -> Vec<u64> {
-        let given = self.as_given();
+        let unscaled = self.without_scaling();
         let numbers = [
-            &given.position[..],
-            &given.quaternion,
-            &given.center,
-            &given.velocity,
-            &given.axis,
-            &[given.start, given.rate],
+            &unscaled.position[..],
+            &unscaled.quaternion,
+            &unscaled.center,
+            &unscaled.velocity,
+            &unscaled.axis,
+            &[unscaled.start, unscaled.rate],
         ];
         let counts = [self.parent, self.axes].map(u64::from);
         // Adding 0 turns −0 into 0.
@@ -97,24 +99,24 @@ impl StatedLink {
         counts.into_iter().chain(numbers).collect()
     }
 
-    /// Compares with the same joint at other positions, whose numbers may be scaled by a power of two. Returns the factor for the start
-    /// and the rate of `other`. Returns `None` if `other` is a different joint.
-    pub(crate) fn scale(&self, other: &StatedLink) -> Option<f64> {
+    /// Compares two links that may have other joint positions and another scaling by a power of two. Returns the factor that undoes the
+    /// scaling of the start and the rate of `other`. Returns `None` if `other` is a different joint.
+    pub(crate) fn scale(&self, other: &StatementLink) -> Option<f64> {
         let is_fixed = self.axes == 0;
-        let [own, theirs] = [self.velocity, other.velocity].map(DVec3::from_array);
-        let largest = own.abs().max_position();
-        let scale = if own == DVec3::ZERO {
+        let [velocity, other_velocity] = [self.velocity, other.velocity].map(DVec3::from_array);
+        let largest = velocity.abs().max_position();
+        let scale = if velocity == DVec3::ZERO {
             1.0
         } else {
-            own[largest] / theirs[largest]
+            velocity[largest] / other_velocity[largest]
         };
-        let as_theirs = StatedLink {
-            velocity: (own / scale).to_array(),
+        let rescaled = StatementLink {
+            velocity: (velocity / scale).to_array(),
             start: if is_fixed { self.start } else { other.start },
             rate: if is_fixed { self.rate } else { other.rate },
             ..self.clone()
         };
-        (is_power_of_two(scale) && as_theirs == *other).then_some(1.0 / scale)
+        (is_power_of_two(scale) && rescaled == *other).then_some(1.0 / scale)
     }
 }
 
@@ -122,7 +124,7 @@ fn is_power_of_two(number: f64) -> bool {
     number.is_normal() && number > 0.0 && number.to_bits() << 12 == 0
 }
 
-/// Returns the least power of two that is at least a number. It uses the bits, as a logarithm would be rounded.
+/// Returns the least power of two that is at least a number. Computes it from the bits, because a logarithm would be rounded.
 fn power_not_below(number: f64) -> f64 {
     let is_between = number.to_bits() << 12 != 0;
     f64::from_bits(((number.to_bits() >> 52) + u64::from(is_between)) << 52)

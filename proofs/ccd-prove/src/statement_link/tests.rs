@@ -1,7 +1,7 @@
 use super::*;
 
-fn link(axes: u32, [velocity, axis]: [[f64; 3]; 2], [start, rate]: [f64; 2]) -> StatedLink {
-    StatedLink {
+fn link(axes: u32, [velocity, axis]: [[f64; 3]; 2], [start, rate]: [f64; 2]) -> StatementLink {
+    StatementLink {
         parent: 0,
         position: [0.0; 3],
         quaternion: [0.0, 0.0, 0.0, 1.0],
@@ -16,10 +16,10 @@ fn link(axes: u32, [velocity, axis]: [[f64; 3]; 2], [start, rate]: [f64; 2]) -> 
 
 #[test]
 fn a_free_motion_is_returned_with_rate_one() {
-    let stated = link(0, [[0.0, 0.0, -0.25], [0.75, 0.0, 0.0]], [0.0, 4.0]);
-    let given = link(0, [[0.0, 0.0, -1.0], [3.0, 0.0, 0.0]], [0.0, 1.0]);
-    assert_eq!(stated.as_given(), given);
-    assert_eq!(stated.numbers(), given.numbers());
+    let scaled = link(0, [[0.0, 0.0, -0.25], [0.75, 0.0, 0.0]], [0.0, 4.0]);
+    let unscaled = link(0, [[0.0, 0.0, -1.0], [3.0, 0.0, 0.0]], [0.0, 1.0]);
+    assert_eq!(scaled.without_scaling(), unscaled);
+    assert_eq!(scaled.numbers(), unscaled.numbers());
     // A link that was not scaled by a power of two, or does not start at 0, stays as it is.
     for other in [
         link(0, [[0.0, 0.0, -0.25], [0.0; 3]], [0.0, 3.0]),
@@ -27,7 +27,7 @@ fn a_free_motion_is_returned_with_rate_one() {
         link(0, [[5e-324, 0.0, 1.0], [0.0; 3]], [0.0, 0.5]),
         link(0, [[0.0; 3]; 2], [0.0, 0.0]),
     ] {
-        assert_eq!(other.as_given(), other);
+        assert_eq!(other.without_scaling(), other);
     }
 }
 
@@ -37,11 +37,11 @@ fn a_joint_is_returned_with_an_axis_of_length_one() {
     for axis in [[1.0, 0.0, 0.0], [0.6, 0.0, -0.8], [diagonal; 3]] {
         for power in [-30, 0, 3] {
             let scale = 2f64.powi(power);
-            let by = [0.3 / scale, -1.2 / scale];
-            let stated = link(1, [axis.map(|x| x * scale), [0.0; 3]], by);
-            let given = link(1, [axis, [0.0; 3]], [0.3, -1.2]);
-            assert_eq!(stated.as_given(), given);
-            assert_eq!(stated.numbers(), given.numbers());
+            let parameter = [0.3 / scale, -1.2 / scale];
+            let scaled = link(1, [axis.map(|x| x * scale), [0.0; 3]], parameter);
+            let unscaled = link(1, [axis, [0.0; 3]], [0.3, -1.2]);
+            assert_eq!(scaled.without_scaling(), unscaled);
+            assert_eq!(scaled.numbers(), unscaled.numbers());
         }
     }
 }

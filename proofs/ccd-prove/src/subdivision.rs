@@ -1,4 +1,4 @@
-//! Builds the steps of a proof: splits parts and intervals of time until a cheap leaf proves each pair of parts apart.
+//! Builds the steps of a proof: splits tree nodes and intervals of time until a cheap leaf proves each pair of nodes apart.
 
 use crate::error::NotProven;
 use crate::interval::{LinkState, PairInterval, link_states};
@@ -6,12 +6,13 @@ use crate::link_motion::LinkMotion;
 use crate::scene::Scene;
 use crate::separating_plane::PlaneSearch;
 use crate::step::Step;
-use crate::tree::{Part, Tree};
+use crate::stop::{Stop, Stopped};
+use crate::tree::{NodeIndex, Tree};
 use ccd_core::glam::DVec3;
 use ccd_distance_gjk::{TerminationBounds, Vertex, bound_distance};
 use std::collections::HashMap;
 use std::rc::Rc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// The maximum number of bytes of the steps.
 const MAX_BYTES: usize = 1 << 26;
@@ -22,13 +23,13 @@ const MAX_DEPTH: u32 = 200;
 /// The shortest interval that is split, as a fraction of the whole time. The checker's times are multiples of 2⁻⁶⁰.
 const MIN_INTERVAL: f64 = 1e-15;
 
-/// Time is not split for parts whose displacement is below this fraction of their radius.
+/// The interval is not split if the relative displacement of both nodes is below this fraction of the larger node's radius.
 const MIN_DISPLACEMENT: f64 = 0.1;
 
-/// The cost of checking a leaf with a ball, besides its visits to boxes. All costs are in visits to one box.
+/// The cost of checking a leaf with a ball, without its visits to boxes. The unit of all costs is a visit to one box.
 const BALL_COST: usize = 15;
 
-/// The cost of checking a leaf with a plane, besides its visits to boxes.
+/// The cost of checking a leaf with a plane, without its visits to boxes.
 const PLANE_COST: usize = 35;
 
 /// The cost of computing the state of one link for one interval.
@@ -37,60 +38,54 @@ const LINK_COST: usize = 40;
 /// A task with a leaf of at most this cost is not split in search of cheaper leaves.
 const CHEAP_LEAF_COST: usize = 30;
 
-/// Estimated checking cost of a task that no leaf proves yet.
+/// The estimated cost of checking a task that no leaf proves yet.
 const UNPROVEN_COST: usize = 800;
 
-/// The maximum number of link states in the cache, which take about 100 MB; the intervals that are kept beside them take up to 150 MB. The checker's cache has the same maximum.
+/// The maximum number of link states in the cache, which take about 100 MB. The cached pair intervals take up to 150 MB more. The
+/// checker's cache has the same maximum.
 pub(crate) const MAX_CACHED_STATES: usize = 1 << 19;
 
-/// The steps of a proof while they are written. Their leaves cover all pairs of triangles at all times.
-pub(crate) struct Cover<'a> {
+/// Writes the steps of a proof. The leaves cover all pairs of triangles at all times.
+pub(crate) struct Subdivision<'a> {
     scene: &'a Scene<'a>,
     link_motions: &'a [LinkMotion],
-    limits: CoverLimits<'a>,
+    limits: SubdivisionLimits<'a>,
     /// The unit of length of the certificate.
     length_unit: f64,
     /// The index of the current pair.
     pair: usize,
-    /// The required gap of the current pair on either side of a separating plane: half of the margin, and an allowance for rounding.
+    /// The required distance of either node of the current pair from a separating plane: half of the margin plus a rounding error bound.
     required_gap: f64,
-    /// The current pair in each interval, by the bits of the interval's start and end.
+    /// The motion of the current pair in each interval. The key is the bits of the interval's start and end.
     pair_intervals: HashMap<[u64; 2], Rc<PairInterval<'a>>>,
-    /// The states of all links in each interval, which all pairs share.
+    /// The states of all links in each interval. All pairs use them.
     link_states: HashMap<[u64; 2], Vec<LinkState>>,
     pub(crate) steps: Vec<u8>,
     pub(crate) leaf_count: usize,
 }
 
-/// The end of the time to cover, and the limits of the work.
+/// The end time of a proof, and the limits of the work on it.
 #[derive(Clone, Copy)]
-pub(crate) struct CoverLimits<'a> {
+pub(crate) struct SubdivisionLimits<'a> {
     /// The time until which the pairs are proven apart.
     pub(crate) until: f64,
-    /// The flag that another thread sets to stop the work.
+    /// The flag with which another thread stops the work.
     pub(crate) stop: Option<&'a AtomicBool>,
     /// The number of link states above which the cache is emptied.
     pub(crate) max_cached_states: usize,
 }
 
-/// Two parts to prove apart over an interval of time.
+/// Two tree nodes to prove apart over an interval of time.
 #[derive(Clone)]
 struct Task<'a> {
-    parts: [Part; 2],
+    nodes: [NodeIndex; 2],
     interval: Rc<PairInterval<'a>>,
-    /// The best separating axis so far of these parts, or of the parts that they were split from.
+    /// The best separating axis known for these nodes. A new task starts with the axis of the task that it was split from.
     axis: DVec3,
     /// The number of splits above this task.
     depth: u32,
-    leaf: KnownLeaf,
-}
-
-/// The result of the search for a leaf that proves a task.
-#[derive(Clone, Copy)]
-enum KnownLeaf {
-    NotSearched,
-    NotFound,
-    Found(Leaf),
+    /// The result of the search for a leaf, or `None` before the search. The result is `None` if no leaf proves the task.
+    leaf_search: Option<Option<Leaf>>,
 }
 
 /// A leaf that proves a task, and its checking cost.
@@ -102,13 +97,13 @@ struct Leaf {
 
 #[derive(Clone, Copy)]
 enum LeafKind {
-    /// The bounding ball of the part of a body: 0 is A, 1 is B.
+    /// The bounding ball of the node of a body: 0 is A, 1 is B.
     Ball(usize),
     /// A plane perpendicular to the axis of the task.
     Plane,
 }
 
-/// A split of a task, and the tasks that remain.
+/// A split of a task, and the tasks that replace it.
 struct Split<'a> {
     step: Step,
     /// The cost of checking the split itself.
@@ -116,13 +111,13 @@ struct Split<'a> {
     tasks: Vec<Task<'a>>,
 }
 
-impl<'a> Cover<'a> {
+impl<'a> Subdivision<'a> {
     pub(crate) fn new(
         (scene, link_motions): (&'a Scene<'a>, &'a [LinkMotion]),
-        limits: CoverLimits<'a>,
+        limits: SubdivisionLimits<'a>,
         length_unit: f64,
     ) -> Self {
-        Cover {
+        Subdivision {
             scene,
             link_motions,
             limits,
@@ -141,17 +136,17 @@ impl<'a> Cover<'a> {
         (self.pair, self.required_gap) = (pair, required_gap);
         self.pair_intervals.clear();
         let interval = self.pair_interval([0.0, self.limits.until]);
-        let axis = interval.offset;
+        let axis = interval.center_offset;
         self.prove_task(Task {
-            parts: [Tree::WHOLE; 2],
+            nodes: [Tree::ROOT; 2],
             interval,
             axis,
             depth: 0,
-            leaf: KnownLeaf::NotSearched,
+            leaf_search: None,
         })
     }
 
-    /// Returns the current pair over an interval of time, from the cache if it is there.
+    /// Returns the motion of the current pair over an interval of time. Uses the cache if possible.
     fn pair_interval(&mut self, times: [f64; 2]) -> Rc<PairInterval<'a>> {
         let key = times.map(f64::to_bits);
         if let Some(interval) = self.pair_intervals.get(&key) {
@@ -177,32 +172,28 @@ impl<'a> Cover<'a> {
         self.link_states.len() * self.link_motions.len()
     }
 
-    /// Writes the steps that prove a task: its leaf, or a split and the steps of the tasks that remain.
+    /// Writes the steps that prove a task: a leaf, or a split and the steps of its tasks.
     fn prove_task(&mut self, mut task: Task<'a>) -> Result<(), NotProven> {
         let at = task.interval.start;
         if task.depth > MAX_DEPTH || self.steps.len() > MAX_BYTES {
             let bytes = self.steps.len();
             return Err(NotProven::TooLong { at, bytes });
         }
-        if self
-            .limits
-            .stop
-            .is_some_and(|stop| stop.load(Ordering::Relaxed))
-        {
-            return Err(NotProven::Stopped { at });
+        if let Some(flag) = self.limits.stop {
+            flag.check().map_err(|Stopped| NotProven::Stopped { at })?;
         }
         let leaf = self.find_leaf(&mut task);
         let leaf_cost = leaf.map_or(usize::MAX, |leaf| leaf.cost);
         let mut best: (usize, Option<Split<'a>>) = (leaf_cost, None);
         if leaf_cost > CHEAP_LEAF_COST {
-            // A split with an unproven task does not replace a leaf.
+            // If a leaf proves the task, a split with an unproven task is no alternative.
             let unproven_cost = if leaf.is_some() {
                 usize::MAX
             } else {
                 UNPROVEN_COST
             };
             for mut split in self.splits(&task) {
-                let cost = self.split_cost(&mut split, unproven_cost);
+                let cost = self.cost_of_split(&mut split, unproven_cost);
                 if cost < best.0 {
                     best = (cost, Some(split));
                 }
@@ -234,33 +225,33 @@ impl<'a> Cover<'a> {
         Ok(())
     }
 
-    /// Returns the cost of checking a split and its tasks. A task that no leaf proves costs `unproven_cost`.
-    fn split_cost(&self, split: &mut Split<'a>, unproven_cost: usize) -> usize {
+    /// Returns the cost of checking a split and its tasks. A task without a leaf costs `unproven_cost`.
+    fn cost_of_split(&self, split: &mut Split<'a>, unproven_cost: usize) -> usize {
         let tasks = split.tasks.iter_mut();
         let costs = tasks.map(|task| self.find_leaf(task).map_or(unproven_cost, |leaf| leaf.cost));
         costs.fold(split.cost, usize::saturating_add)
     }
 
-    /// Returns the possible splits of a task, the most promising one first.
+    /// Returns the possible splits of a task. The most promising split comes first.
     fn splits(&mut self, task: &Task<'a>) -> Vec<Split<'a>> {
-        let (interval, parts) = (&task.interval, task.parts);
-        let radii = [0, 1].map(|k| interval.trees[k].radius(parts[k]));
+        let (interval, nodes) = (&task.interval, task.nodes);
+        let radii = [0, 1].map(|k| interval.trees[k].radius(nodes[k]));
         let larger = usize::from(radii[1] > radii[0]);
-        let displacement = interval.relative_displacement(parts);
-        let is_within_max_turn = interval.is_within_max_turn();
-        let time = (displacement > MIN_DISPLACEMENT * radii[larger] || !is_within_max_turn)
+        let displacement = interval.relative_displacement(nodes);
+        let is_within_max_angle = interval.is_within_max_angle();
+        let time = (displacement > MIN_DISPLACEMENT * radii[larger] || !is_within_max_angle)
             .then(|| self.split_time(task))
             .flatten();
-        if !is_within_max_turn {
+        if !is_within_max_angle {
             return time.into_iter().collect();
         }
-        let halves = [larger, 1 - larger]
+        let node_splits = [larger, 1 - larger]
             .into_iter()
-            .filter_map(|body| split_part(task, body));
+            .filter_map(|body| split_node(task, body));
         if displacement > radii[larger] {
-            time.into_iter().chain(halves).collect()
+            time.into_iter().chain(node_splits).collect()
         } else {
-            halves.chain(time).collect()
+            node_splits.chain(time).collect()
         }
     }
 
@@ -290,24 +281,22 @@ impl<'a> Cover<'a> {
 
     fn plane_search<'t>(&self, task: &'t Task<'a>) -> PlaneSearch<'t> {
         PlaneSearch {
-            parts: task.parts,
+            nodes: task.nodes,
             interval: &task.interval,
             required_gap: self.required_gap,
             length_unit: self.length_unit,
         }
     }
 
-    /// Finds the cheapest leaf that proves a task: one with a ball, or one with a plane perpendicular to the task's axis. If that
-    /// plane does not separate the parts, their best separating axis at the middle of the interval becomes the task's axis.
+    /// Finds the cheapest leaf that proves a task: a leaf with a ball, or a leaf with a plane perpendicular to the task's axis. If
+    /// that plane does not separate the nodes, the task gets the best separating axis at the middle of the interval.
     fn find_leaf(&self, task: &mut Task<'a>) -> Option<Leaf> {
-        match task.leaf {
-            KnownLeaf::NotSearched => {}
-            KnownLeaf::NotFound => return None,
-            KnownLeaf::Found(leaf) => return Some(leaf),
+        if let Some(leaf) = task.leaf_search {
+            return leaf;
         }
         let gap = 2.0 * self.required_gap;
         let ball = [0, 1].into_iter().filter_map(|k| {
-            let cost = BALL_COST + task.interval.ball_visits(task.parts, k, gap)?;
+            let cost = BALL_COST + task.interval.ball_visits(task.nodes, k, gap)?;
             let kind = LeafKind::Ball(k);
             Some(Leaf { cost, kind })
         });
@@ -328,47 +317,47 @@ impl<'a> Cover<'a> {
                 leaf = Some(Leaf { cost, kind });
             }
         }
-        task.leaf = leaf.map_or(KnownLeaf::NotFound, KnownLeaf::Found);
+        task.leaf_search = Some(leaf);
         leaf
     }
 }
 
 impl Task<'_> {
-    /// Returns a copy that is one split deeper, whose parts or interval the caller replaces.
+    /// Returns a copy with a depth greater by 1. The caller replaces its nodes or its interval.
     fn child(&self) -> Self {
         Task {
             depth: self.depth + 1,
-            leaf: KnownLeaf::NotSearched,
+            leaf_search: None,
             ..self.clone()
         }
     }
 }
 
-/// Splits the part of a body. Returns `None` if it is a single triangle.
-fn split_part<'a>(task: &Task<'a>, body: usize) -> Option<Split<'a>> {
+/// Splits the node of a body. Returns `None` if the node is a single triangle.
+fn split_node<'a>(task: &Task<'a>, body: usize) -> Option<Split<'a>> {
     let tasks = task.interval.trees[body]
-        .halves(task.parts[body])?
-        .map(|half| {
-            let mut parts = task.parts;
-            parts[body] = half;
+        .children(task.nodes[body])?
+        .map(|child| {
+            let mut nodes = task.nodes;
+            nodes[body] = child;
             Task {
-                parts,
+                nodes,
                 ..task.child()
             }
         });
     Some(Split {
-        step: Step::SplitPart(body),
+        step: Step::SplitNode(body),
         cost: 0,
         tasks: tasks.into(),
     })
 }
 
-/// Returns the axis along which the gap between the parts is largest at the middle of the interval, and a lower bound of the gap.
+/// Returns the axis along which the gap between the nodes is largest at the middle of the interval, and a lower bound of that gap.
 fn separating_axis_at_middle(task: &Task<'_>) -> (DVec3, f64) {
-    let ([a, b], interval) = (task.parts, &task.interval);
+    let ([a, b], interval) = (task.nodes, &task.interval);
     let support = |direction: DVec3| {
-        let (a, point_a) = interval.lowest_vertex(0, a, -direction);
-        let (b, point_b) = interval.lowest_vertex(1, b, direction);
+        let (a, point_a) = interval.support_vertex(0, a, -direction);
+        let (b, point_b) = interval.support_vertex(1, b, direction);
         Vertex {
             point: point_b - point_a,
             a,
@@ -384,6 +373,6 @@ fn separating_axis_at_middle(task: &Task<'_>) -> (DVec3, f64) {
     } else {
         task.axis
     };
-    let found = bound_distance(support, initial_axis, bounds);
-    (found.axis.normalize_or_zero(), found.lower)
+    let closest = bound_distance(support, initial_axis, bounds);
+    (closest.axis.normalize_or_zero(), closest.lower)
 }
