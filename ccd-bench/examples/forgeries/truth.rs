@@ -3,7 +3,7 @@
 use crate::files::Files;
 use ccd_core::glam::{DQuat, DVec3, DVec4};
 use ccd_core::order::{greater, lesser};
-use ccd_prove::{StatementLink, StatementWitness, Statement};
+use ccd_prove::{Statement, StatementLink, StatementWitness};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::distance;
 use parry3d_f64::shape::Triangle;
