@@ -288,7 +288,7 @@ pub enum CurveError {
         /// The number of times.
         count: usize,
     },
-    /// A segment does not end after its start.
+    /// The end time of a segment is not after its start time.
     #[error("the times of segment {segment} do not increase, or are not finite")]
     TimesNotIncreasing {
         /// The index of the segment.

@@ -5,8 +5,8 @@
 /// about ten distance queries.
 pub(crate) const MAX_ENGINE_INTERVAL_LENGTH: f64 = 1.0 / 32.0;
 
-/// The same length for the closest approach. The engine then has to measure distances, instead of only comparing them
-/// with a margin.
+/// The length of such an interval in a search for the closest approach. The engine then has to measure distances,
+/// instead of only comparing them with a margin.
 pub(crate) const MAX_APPROACH_INTERVAL_LENGTH: f64 = 1.0 / 64.0;
 
 /// A pair whose displacement in an interval is smaller than this, in metres, is left to the engine after only

@@ -78,9 +78,9 @@ impl SearchFolders {
         let (package, rest) = path.split_once('/').unwrap_or((path, ""));
         let in_folder = |folder: &PathBuf| {
             let is_package = folder.file_name().is_some_and(|name| name == package);
-            let in_itself = is_package.then(|| folder.join(rest));
+            let path_in_folder = is_package.then(|| folder.join(rest));
             // If the folder is the package, it comes before a package of the same name inside it.
-            [in_itself, Some(folder.join(package).join(rest))]
+            [path_in_folder, Some(folder.join(package).join(rest))]
                 .into_iter()
                 .flatten()
         };

@@ -2,7 +2,7 @@
 //! nearer.
 //!
 //! A pair with a gap at the start must keep half of its gap. A pair without a gap is first followed in short steps, so
-//! short that its relative motion is almost a motion at constant velocity. The engine decides each step under the same
+//! short that its relative motion is almost a motion at constant velocities. The engine decides each step under the same
 //! policy. If there is a gap after a step, the rest of the path is searched for this pair as for all others.
 
 use super::PathSearch;
@@ -21,7 +21,7 @@ use rigid_ccd::{
 };
 use std::ops::ControlFlow::{self, Break, Continue};
 
-/// The distance by which a pair without a gap may approach in all steps together, because motions at constant velocity
+/// The distance by which a pair without a gap may approach in all steps together, because motions at constant velocities
 /// approximate the steps: a fraction of the tolerance, and at least a multiple of the rounding error of poses.
 const SINKING_PER_TOLERANCE: f64 = 1e-6;
 const SINKING_PER_ROUNDING: f64 = 1024.0;
