@@ -19,8 +19,9 @@ use rigid_ccd::trajectory::Chain;
 /// let [left, right] = [gripper.link_number("left finger")?, gripper.link_number("right finger")?];
 /// let right_from_left = gripper.chain_between(left, right);
 /// // Both fingers move by 0.04, so the right finger moves by 0.08 in the frame of the left finger.
-/// let [open, closed] = [&[0.04], &[0.0]].map(|configuration| right_from_left.positions(&gripper, configuration));
-/// let closing = right_from_left.chain().link(2, &open?, &closed?, 1.0)?;
+/// let open = right_from_left.positions(&gripper, &[0.04])?;
+/// let closed = right_from_left.positions(&gripper, &[0.0])?;
+/// let closing = right_from_left.chain().link(2, &open, &closed, 1.0)?;
 /// # use rigid_ccd::trajectory::Trajectory;
 /// let displacement = closing.pose(1.0)?.translation().y - closing.pose(0.0)?.translation().y;
 /// assert!((displacement - 0.08).abs() < 1e-15);
