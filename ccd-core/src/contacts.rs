@@ -16,16 +16,15 @@ use crate::problem::Problem;
 use manifold::ContactManifold;
 use near::near_face_pairs;
 use skin::NearSurface;
+use std::fmt;
 
 /// The reason why the contacts at a time cannot be listed.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ContactsError {
     /// A trajectory has no pose at the time, or a pose out of range.
-    #[error(transparent)]
-    Input(#[from] InputError),
+    Input(InputError),
     /// The time is NaN, or outside of the duration.
-    #[error("time is {requested_time}, but must be from 0 to {duration}")]
     NotInDuration {
         /// The requested time, in the motions' unit.
         requested_time: f64,
@@ -34,7 +33,6 @@ pub enum ContactsError {
     },
     /// More pairs are near than the [budget](crate::Settings::budget) allows. Either the bodies are small for the
     /// margin and the tolerance, or one is deep in the other.
-    #[error("more pairs of features are near than a budget of {budget} allows")]
     TooManyPairs {
         /// The budget of the query, which limits the number of near pairs.
         budget: u64,
@@ -68,6 +66,32 @@ impl Problem<'_> {
             }
         }
         Ok(manifold.pairs(&frames[0]))
+    }
+}
+
+impl fmt::Display for ContactsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input(error) => error.fmt(f),
+            Self::NotInDuration {
+                requested_time: time,
+                duration,
+            } => {
+                write!(f, "time is {time}, but must be from 0 to {duration}")
+            }
+            Self::TooManyPairs { budget } => write!(
+                f,
+                "more pairs of features are near than a budget of {budget} allows"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for ContactsError {}
+
+impl From<InputError> for ContactsError {
+    fn from(error: InputError) -> Self {
+        ContactsError::Input(error)
     }
 }
 

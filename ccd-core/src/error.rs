@@ -4,20 +4,17 @@ use crate::limits::MAX_COORDINATE;
 use std::fmt;
 
 /// The reason why an input is invalid, with the invalid element.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum InputError {
     /// A quantity is NaN or infinite.
-    #[error("{quantity} is NaN or infinite")]
     NotFinite {
         /// The name of the quantity that is not finite.
         quantity: &'static str,
     },
     /// A quaternion has length zero, and represents no orientation.
-    #[error("a quaternion of length zero names no orientation")]
     ZeroQuaternion,
     /// A quantity is outside of its accepted range.
-    #[error("{quantity} is {}, but must be {allowed}", ShortNumber(*.value))]
     OutOfRange {
         /// The name of the quantity that is out of range.
         quantity: &'static str,
@@ -27,13 +24,6 @@ pub enum InputError {
         allowed: &'static str,
     },
     /// The position of a joint is outside of the joint's limits.
-    #[error(
-        "{} is at {}, but its limits are {} and {}",
-        JointName(*.joint),
-        ShortNumber(*.joint_position),
-        ShortNumber(.limits[0]),
-        ShortNumber(.limits[1])
-    )]
     JointOutOfLimits {
         /// The index of the joint in its chain, if it is in one.
         joint: Option<usize>,
@@ -43,9 +33,6 @@ pub enum InputError {
         limits: [f64; 2],
     },
     /// A link number is greater than the number of joints of the chain.
-    #[error(
-        "there is no link {link}: a chain of {joint_count} joints has the links 0 to {joint_count}"
-    )]
     NoSuchLink {
         /// The requested number of the link.
         link: usize,
@@ -53,9 +40,6 @@ pub enum InputError {
         joint_count: usize,
     },
     /// A link's motion was requested relative to a link that is farther from the base.
-    #[error(
-        "link {link} cannot be seen from link {from}, which is farther from the base: see link {from} from link {link}"
-    )]
     ReferenceLinkTooFar {
         /// The number of the link that serves as reference.
         from: usize,
@@ -63,9 +47,6 @@ pub enum InputError {
         link: usize,
     },
     /// The number of positions differs from the number of joints. Each joint needs one, fixed ones included.
-    #[error(
-        "there are {positions} positions of {joints} joints: each joint needs one, fixed ones included"
-    )]
     JointCountMismatch {
         /// The number of given positions.
         positions: usize,
@@ -73,18 +54,13 @@ pub enum InputError {
         joints: usize,
     },
     /// A body has no pieces.
-    #[error("a body needs at least one piece")]
     NoPieces,
     /// A piece has no points.
-    #[error("piece {piece} has no points")]
     EmptyPiece {
         /// The index of the piece without points.
         piece: usize,
     },
     /// A point of a piece is NaN, infinite or beyond [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
-    #[error(
-        "point {point} of piece {piece} has a coordinate that is not within {MAX_COORDINATE:e} of 0"
-    )]
     BadPoint {
         /// The index of the piece with the invalid point.
         piece: usize,
@@ -93,10 +69,6 @@ pub enum InputError {
     },
     /// A rounding radius is negative, NaN, infinite or beyond
     /// [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
-    #[error(
-        "the radius of piece {piece} is {}, but must be from 0 to {MAX_COORDINATE:e}",
-        ShortNumber(*.radius)
-    )]
     BadRadius {
         /// The index of the piece with the invalid radius.
         piece: usize,
@@ -104,7 +76,6 @@ pub enum InputError {
         radius: f64,
     },
     /// A face refers to a vertex that does not exist.
-    #[error("face {face} names vertex {vertex}, but there are {vertices}")]
     VertexOutOfRange {
         /// The index of the face that refers to the vertex.
         face: usize,
@@ -114,7 +85,6 @@ pub enum InputError {
         vertices: usize,
     },
     /// The number of face numbers differs from the number of faces.
-    #[error("{faces} faces need as many numbers, not {id_count}")]
     FaceIdCountMismatch {
         /// The number of faces in the mesh.
         faces: usize,
@@ -123,12 +93,8 @@ pub enum InputError {
     },
     /// A surface does not consist of triangles that bound a solid, or does not belong to a solid body of one piece with
     /// radius 0.
-    #[error(
-        "a surface has to be solid and of triangles, and its body one solid piece without rounding"
-    )]
     BadSurface,
     /// A facet of a polytope refers to a point that does not exist.
-    #[error("facet {facet} of piece {piece} names a missing corner")]
     FacetOutOfRange {
         /// The index of the piece with the invalid facet.
         piece: usize,
@@ -136,7 +102,6 @@ pub enum InputError {
         facet: usize,
     },
     /// A face of the mesh on a polytope has a corner that is NaN or infinite.
-    #[error("face {face} of piece {piece} has a corner that is NaN or infinite")]
     BadFace {
         /// The index of the piece with the invalid face.
         piece: usize,
@@ -144,18 +109,108 @@ pub enum InputError {
         face: usize,
     },
     /// A hierarchy is not a tree with one root in which every piece occurs exactly once.
-    #[error("the hierarchy misses, repeats or loops at {index}")]
     BadHierarchy {
         /// The index of the piece or node at which the check fails.
         index: usize,
     },
     /// There are more pieces than indices of 32 bits can number.
-    #[error("{pieces} pieces are too many")]
     TooManyPieces {
         /// The number of given pieces.
         pieces: usize,
     },
 }
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite { quantity } => write!(f, "{quantity} is NaN or infinite"),
+            Self::ZeroQuaternion => write!(f, "a quaternion of length zero names no orientation"),
+            Self::OutOfRange {
+                quantity,
+                value,
+                allowed,
+            } => {
+                let value = ShortNumber(*value);
+                write!(f, "{quantity} is {value}, but must be {allowed}")
+            }
+            Self::JointOutOfLimits {
+                joint,
+                joint_position: position,
+                limits: [least, greatest],
+            } => {
+                match joint {
+                    Some(joint) => write!(f, "joint {joint}")?,
+                    None => write!(f, "the joint")?,
+                }
+                let [position, least, greatest] = [*position, *least, *greatest].map(ShortNumber);
+                write!(
+                    f,
+                    " is at {position}, but its limits are {least} and {greatest}"
+                )
+            }
+            Self::NoSuchLink {
+                link,
+                joint_count: joints,
+            } => write!(
+                f,
+                "there is no link {link}: a chain of {joints} joints has the links 0 to {joints}"
+            ),
+            Self::ReferenceLinkTooFar { from, link } => write!(
+                f,
+                "link {link} cannot be seen from link {from}, which is farther from the base: see link {from} from \
+                 link {link}"
+            ),
+            Self::JointCountMismatch { positions, joints } => write!(
+                f,
+                "there are {positions} positions of {joints} joints: each joint needs one, fixed ones included"
+            ),
+            Self::NoPieces => write!(f, "a body needs at least one piece"),
+            Self::EmptyPiece { piece } => write!(f, "piece {piece} has no points"),
+            Self::BadPoint { piece, point } => write!(
+                f,
+                "point {point} of piece {piece} has a coordinate that is not within {MAX_COORDINATE:e} of 0"
+            ),
+            Self::BadRadius { piece, radius } => write!(
+                f,
+                "the radius of piece {piece} is {}, but must be from 0 to {MAX_COORDINATE:e}",
+                ShortNumber(*radius)
+            ),
+            Self::VertexOutOfRange {
+                face,
+                vertex,
+                vertices,
+            } => write!(
+                f,
+                "face {face} names vertex {vertex}, but there are {vertices}"
+            ),
+            Self::FaceIdCountMismatch {
+                faces,
+                id_count: ids,
+            } => {
+                write!(f, "{faces} faces need as many numbers, not {ids}")
+            }
+            Self::BadSurface => write!(
+                f,
+                "a surface has to be solid and of triangles, and its body one solid piece without rounding"
+            ),
+            Self::FacetOutOfRange { piece, facet } => {
+                write!(f, "facet {facet} of piece {piece} names a missing corner")
+            }
+            Self::BadFace { piece, face } => {
+                write!(
+                    f,
+                    "face {face} of piece {piece} has a corner that is NaN or infinite"
+                )
+            }
+            Self::BadHierarchy { index: at } => {
+                write!(f, "the hierarchy misses, repeats or loops at {at}")
+            }
+            Self::TooManyPieces { pieces } => write!(f, "{pieces} pieces are too many"),
+        }
+    }
+}
+
+impl std::error::Error for InputError {}
 
 /// Returns an error for a quantity unless `is_allowed` is true. The condition has to be false for NaN.
 pub fn check(
@@ -181,18 +236,6 @@ pub fn check_finite(quantity: &'static str, is_finite: bool) -> Result<(), Input
 pub(crate) fn check_shape_length(what: &'static str, length: f64) -> Result<(), InputError> {
     let allowed = (0.0..=MAX_COORDINATE).contains(&length);
     check(what, length, allowed, "from 0 to 1e12")
-}
-
-/// The name of a joint in a message: its index in its chain, if it is in one.
-struct JointName(Option<usize>);
-
-impl fmt::Display for JointName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Some(joint) => write!(f, "joint {joint}"),
-            None => write!(f, "the joint"),
-        }
-    }
 }
 
 /// Displays a number with as few digits as identify it, and with a power of ten if it is very large or very small.

@@ -6,11 +6,7 @@ use std::fmt;
 /// The bounds that were proven before a limit ended a query.
 ///
 /// The type is also an error, for callers that need an answer.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "unresolved ({limit}): no contact before time {safe_until}, not known after; {}",
-    limit.advice()
-)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unresolved {
     /// The limit that ended the query.
     pub limit: Limit,
@@ -60,6 +56,21 @@ impl Unresolved {
         }
     }
 }
+
+impl fmt::Display for Unresolved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Unresolved {
+            limit, safe_until, ..
+        } = self;
+        write!(
+            f,
+            "unresolved ({limit}): no contact before time {safe_until}, not known after; {}",
+            limit.advice()
+        )
+    }
+}
+
+impl std::error::Error for Unresolved {}
 
 /// The reason why a query ended before its answer was known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
