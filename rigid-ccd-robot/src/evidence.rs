@@ -15,7 +15,7 @@ use rigid_ccd::{Pose, Settings, StartPolicy};
 use serde::{Deserialize, Serialize};
 
 /// The format name and version at the start of each record.
-const FORMAT: &str = "rigid-ccd evidence 1";
+const FORMAT: &str = "rigid-ccd evidence 2";
 
 /// A record of the first contact on a path: the question, digests of the bodies, and the answer.
 ///

@@ -8,7 +8,7 @@ export const KINDS = ["free", "contact", "touching", "overlapping", "interval", 
 /** The first number of an overlap for which only a point inside both bodies is known. */
 const POINT_ONLY = 1;
 
-/** Reads an answer of a kind. Its numbers begin at index `start`. */
+/** Reads an answer from `numbers`, from index `start` on. `kind` is an index in `KINDS`. */
 export function answerOf(kind, numbers, start) {
   const { answer } = layout();
   const name = KINDS[kind];

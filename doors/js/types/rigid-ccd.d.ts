@@ -1,8 +1,8 @@
 /**
  * Certified continuous collision detection: when do two moving rigid bodies first touch?
  *
- * No contact happens before the reported time, in floating point too. Lengths are in any one unit, angles in radians,
- * times in the motions' unit.
+ * No contact happens before the reported time: the proof covers rounding errors. Lengths are in any one unit, angles
+ * in radians, times in the motions' unit.
  */
 
 /**

@@ -8,7 +8,7 @@ use crate::motion::{GivenPose, read_given_pose};
 use crate::numbers::read_number;
 use crate::path_answers::{approach_object, check_resolved, contact_object};
 use crate::path_array::GivenPaths;
-use crate::path_questions::{ask_path, path_ranges};
+use crate::path_questions::{answer_path, path_ranges};
 use crate::path_tables::{GivenQuestion, answer_paths};
 use crate::proofs::prove_path;
 use crate::robot::PyRobot;
@@ -240,7 +240,7 @@ impl PyCell {
         let question = Question::ClosestApproach;
         let settings = read(settings, &names(question, &[]))?;
         let clearance = settings.clearance;
-        let answer = ask_path(py, &self.state.solvers, question, path, settings)?;
+        let answer = answer_path(py, &self.state.solvers, question, path, settings)?;
         approach_object(py, &answer, clearance)
     }
 
@@ -375,7 +375,7 @@ impl PyCell {
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PathRow> {
         let settings = read(settings, &names(question, &[]))?;
-        ask_path(py, &self.state.solvers, question, path, settings)
+        answer_path(py, &self.state.solvers, question, path, settings)
     }
 
     fn remark_on_size(&self, name: &str, body: &Body) -> Option<CellRemark> {

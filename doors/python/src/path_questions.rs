@@ -19,7 +19,7 @@ use std::time::Duration;
 const FIRST_ATTEMPT_TIME_LIMIT: Duration = Duration::from_millis(5);
 
 /// Reads a path, and answers a question about it.
-pub(crate) fn ask_path(
+pub(crate) fn answer_path(
     py: Python<'_>,
     solvers: &CellWithCachedSolvers,
     question: Question,

@@ -179,15 +179,17 @@ fn missing_proof_error(answer: &PathAnswer<'_>, proofs: &[Proof]) -> Option<PyEr
                 contact.at.time()
             )))
         }
-        outcome => outcome
-            .limit()
-            .map(|limit| path_limit_error(limit, answer.free_until.time())),
+        PathOutcome::Free => None,
+        outcome => Some(match outcome.limit() {
+            Some(limit) => path_limit_error(limit, answer.free_until.time()),
+            None => input_error("path: this answer has no proof"),
+        }),
     }
 }
 
 impl PathProofs {
     /// Searches a path, and proves the answer. Counts proven segments in `done`. If another thread sets the flag `stop`
-    /// before the first proof, returns no proofs.
+    /// before the first proof, returns no proofs and an error.
     fn find(
         cell: &Cell,
         path: &[&[f64]],
@@ -195,7 +197,10 @@ impl PathProofs {
         done: &AtomicUsize,
     ) -> Result<Self, CellNotProvable> {
         let Some(proven) = ProvenCell::unless_stopped(cell, stop).transpose()? else {
-            return Ok(PathProofs::default());
+            return Ok(PathProofs {
+                error: Some(input_error("the proof was stopped")),
+                ..PathProofs::default()
+            });
         };
         let settings = settings.stopped_by(stop);
         let mut path_proofs = PathProofs {

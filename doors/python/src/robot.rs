@@ -374,8 +374,8 @@ impl PyRobot {
     /// `ccd acm --report` writes.
     ///
     /// Args:
-    ///     max_boxes: the average number of boxes of joint positions to examine for a pair. Each takes some
-    ///         microseconds.
+    ///     max_boxes: the limit of the number of boxes of joint positions to examine, as an average over all pairs. Each
+    ///         box takes some microseconds.
     ///     srdf: an SRDF file to write. It disables the pairs that need no check, with the evidence for each:
     ///         neighbours that this robot does not check, and pairs that touch never or always.
     ///     progress: a function, called repeatedly with the number of decided pairs and the number of all pairs; a bar

@@ -123,9 +123,9 @@ inline Error wrong_count(const std::string &argument_name, std::size_t needed, s
     return {RCCD_STATUS_INVALID_ARGUMENT, argument_name + ": " + std::to_string(needed) + " numbers are needed, not " + std::to_string(count)};
 }
 
-// `c_text` returns the text for a call in C. If the text contains a zero byte, it returns null, and the call fails.
-inline bool has_zero(const std::string &text) { return text.find('\0') != std::string::npos; }
-inline const char *c_text(const std::string &text) { return has_zero(text) ? nullptr : text.c_str(); }
+inline bool contains_zero_byte(const std::string &text) { return text.find('\0') != std::string::npos; }
+// Returns the text for a call in C. If it contains a zero byte, returns null, and the call fails.
+inline const char *c_text(const std::string &text) { return contains_zero_byte(text) ? nullptr : text.c_str(); }
 
 // Whether a container is a contiguous array of one dimension. Checks types of Eigen: a matrix has two dimensions, and a
 // row of a matrix may have a stride.

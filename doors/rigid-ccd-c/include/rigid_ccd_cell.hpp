@@ -39,7 +39,7 @@ public:
     // `package://` names. Pass empty texts if there is no SRDF file or no folder.
     static Result<Cell> load(const std::string &robot, const std::string &srdf = "",
                              const std::string &package_folder = "") {
-        if (detail::has_zero(srdf) || detail::has_zero(package_folder)) return zero_in_path();
+        if (detail::contains_zero_byte(srdf) || detail::contains_zero_byte(package_folder)) return zero_in_path();
         return detail::hold<Cell, rccd_cell>([&](rccd_cell **out) {
             return rccd_cell_load(detail::c_text(robot), or_null(srdf), or_null(package_folder), out);
         });
@@ -48,7 +48,7 @@ public:
     // directory if it is empty.
     static Result<Cell> from_text(const std::string &robot, const std::string &folder = "", const std::string &srdf = "",
                                   const std::string &package_folder = "") {
-        if (detail::has_zero(folder) || detail::has_zero(srdf) || detail::has_zero(package_folder)) return zero_in_path();
+        if (detail::contains_zero_byte(folder) || detail::contains_zero_byte(srdf) || detail::contains_zero_byte(package_folder)) return zero_in_path();
         return detail::hold<Cell, rccd_cell>([&](rccd_cell **out) {
             return rccd_cell_from_text(detail::c_text(robot), or_null(folder), or_null(srdf), or_null(package_folder), out);
         });

@@ -167,12 +167,12 @@ impl Columns {
                 known_columns,
             });
         }
-        let mut cells = vec![None; names.len()];
+        let mut cell_indices = vec![None; names.len()];
         for (cell, column) in header.iter().enumerate() {
             let Some(slot) = names.iter().position(|name| name == column) else {
                 return Err(unknown_column_error(header, column, table_kind));
             };
-            if cells[slot].replace(cell).is_some() {
+            if cell_indices[slot].replace(cell).is_some() {
                 return Err(TableError::RepeatedColumn {
                     column: column.to_owned(),
                 });
@@ -181,7 +181,7 @@ impl Columns {
         let columns = Columns {
             table_kind,
             names,
-            cell_indices: cells,
+            cell_indices,
             header: header.to_owned(),
             remark_collector: RemarkCollector::default(),
         };

@@ -51,8 +51,9 @@ struct RowGroup {
     columns: Vec<ColumnTexts>,
     /// The number of rows that are not decoded yet.
     undecoded_row_count: u64,
-    /// The number of decoded rows, and the index of the next decoded row.
+    /// The number of rows in memory as text.
     decoded_row_count: usize,
+    /// The index among these of the next row to return.
     next_decoded: usize,
 }
 

@@ -8,7 +8,8 @@ use ccd_core::glam::DVec3;
 /// The inverse of the unit of a normal's coordinates, which is 2⁻⁵⁰.
 const NORMAL_SCALE: f64 = (1u64 << 50) as f64;
 
-/// The bound of a plane's offset, which has 7 bytes with its sign.
+/// The limit of the absolute value of a plane's offset, in units of length. A certificate stores an offset as a signed
+/// integer of 7 bytes.
 const MAX_OFFSET: f64 = (1u64 << 55) as f64;
 
 /// The positions at which a plane is tried, from 0 at the node of A to 1 at the node of B. The first position is halfway.

@@ -18,8 +18,8 @@ pub struct StatementLink {
     pub quaternion: [f64; 4],
     /// The point of the link about which it rotates.
     pub center: [f64; 3],
-    /// The frame of the coordinates of the velocity and the axis: 0 is the parent, 1 is the joint. For 1, the formula has R v and R a
-    /// instead of v and a.
+    /// The axes along which `velocity` and `axis` are given: 0 for the parent's axes, 1 for the parent's axes rotated by
+    /// `quaternion`. For 1, the formula has R v and R a instead of v and a.
     pub axes: u32,
     /// The velocity of the center, per unit of s.
     pub velocity: [f64; 3],

@@ -263,14 +263,14 @@ impl<'a> Subdivision<'a> {
             return None;
         }
         let halves = [[start, middle], [middle, end]];
-        let is_new = !self.link_states.contains_key(&halves[0].map(f64::to_bits));
+        let needs_link_states = !self.link_states.contains_key(&halves[0].map(f64::to_bits));
         let tasks = halves.map(|times| Task {
             interval: self.pair_interval(times),
             ..task.child()
         });
         Some(Split {
             step: Step::SplitTime,
-            cost: if is_new {
+            cost: if needs_link_states {
                 2 * LINK_COST * self.link_motions.len()
             } else {
                 0

@@ -36,8 +36,8 @@ const LENGTH_BITS: i32 = 52;
 /// The checker's error bound of a rotation for each radian of its angle.
 const ROTATION_ERROR: f64 = 1.0 / (1u64 << 50) as f64;
 
-/// The checker's limit for the sum of all link offsets, as a multiple of the largest length. The sum has at most 59 bits, and a
-/// length has at most 53 bits.
+/// The checker's limit for the sum of all link offsets, as a multiple of the largest length. The sum is at most 2⁵⁹ units of
+/// length, and a length is at most 2⁵³ units.
 const MAX_LINK_OFFSET_SUM: f64 = 64.0;
 
 /// A constant that the checker adds to the sum of all link offsets, in units of length.

@@ -100,10 +100,10 @@ impl Cell {
     /// Returns the distance from the base for which planes must be valid: twice the largest distance of a moving body.
     pub(super) fn plane_reach(&self) -> f64 {
         let limits = self.robot.limits();
-        let farthest = limits.map(|[low, high]| greater(low.abs(), high.abs()));
-        let farthest: Vec<f64> = farthest.collect();
+        let largest_positions = limits.map(|[low, high]| greater(low.abs(), high.abs()));
+        let largest_positions: Vec<f64> = largest_positions.collect();
         let reach_without_limits = FREE_TRAVEL * greater(1.0, self.max_reach(std::iter::empty()));
-        let reach_within_limits = self.max_reach(self.kinematics.magnitudes(&farthest));
+        let reach_within_limits = self.max_reach(self.kinematics.magnitudes(&largest_positions));
         lesser(2.0 * reach_within_limits, reach_without_limits)
     }
 

@@ -17,8 +17,8 @@ const ROTATION_ERROR_PER_JOINT: f64 = 64.0;
 
 /// The rounding error of an interpolated joint position, in units of `U` times its [`Magnitude::rounding`].
 /// Interpolation rounds a difference, a product and a sum. A deviation from the position at an interval's midpoint has
-/// the errors of two positions. The magnitude includes the multiplier and the offset of a mimic joint, and the degree
-/// of a polynomial.
+/// the errors of two positions. The magnitude already covers the errors that the multiplier and the offset of a mimic
+/// joint add, and grows with the degree of a polynomial.
 const POSITION_ERROR_ULPS: f64 = 16.0;
 
 /// An answer does not report a larger tolerance than the settings if it exceeds theirs by at most this fraction. With

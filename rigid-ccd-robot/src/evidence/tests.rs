@@ -161,7 +161,7 @@ fn another_cell_is_refused_with_what_differs() {
 #[test]
 fn what_is_no_record_is_refused() {
     let json = contact_record(&cell()).to_json().unwrap();
-    let other = json.replace("evidence 1", "evidence 2");
+    let other = json.replace("evidence 2", "evidence 1");
     let error = Evidence::from_json(&other).unwrap_err();
     assert!(error.to_string().contains("evidence 2"), "{error}");
     assert!(Evidence::from_json("{}").is_err());

@@ -59,9 +59,9 @@ pub(super) struct Displacement {
 }
 
 impl BoxMotion {
-    /// Sets the joints from the link of A to the link of B, at the center of a box, each with the largest deviation of
-    /// its position.
-    pub(super) fn place(
+    /// Sets the axes of the joints from the link of A to the link of B, at the center of a box of joint positions. Each
+    /// comes with the largest deviation of its joint's position from there.
+    pub(super) fn set_joint_axes(
         &mut self,
         kinematics: &Kinematics,
         frames: &[Frame],

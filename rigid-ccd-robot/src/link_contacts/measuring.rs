@@ -337,7 +337,7 @@ impl<'c> Measurer<'c> {
         });
         let frames = &self.placement.frames;
         self.motion
-            .place(self.cell.kinematics(), frames, joints.rounding, deviations);
+            .set_joint_axes(self.cell.kinematics(), frames, joints.rounding, deviations);
     }
 
     /// Returns two upper bounds of the distance from a point to a link: to its bodies, and to the shapes that the bodies

@@ -19,10 +19,15 @@ impl SearchFolders {
     /// Lists the folders to search: those of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, then all folders above the
     /// URDF file.
     pub(super) fn for_urdf(urdf: &Path) -> Self {
+        let package_folders = folders_in("ROS_PACKAGE_PATH");
+        SearchFolders::new(urdf, package_folders, folders_in("AMENT_PREFIX_PATH"))
+    }
+
+    /// Lists the folders to search. An installed package of ROS 2 is below `share` in a prefix.
+    fn new(urdf: &Path, package_folders: Vec<PathBuf>, ament_prefixes: Vec<PathBuf>) -> Self {
         let urdf_folder = urdf.parent().unwrap_or(Path::new("")).to_owned();
-        let mut folders = folders_in("ROS_PACKAGE_PATH");
-        let prefixes = folders_in("AMENT_PREFIX_PATH");
-        folders.extend(prefixes.into_iter().map(|prefix| prefix.join("fraction")));
+        let mut folders = package_folders;
+        folders.extend(ament_prefixes.iter().map(|prefix| prefix.join("share")));
         // A URDF is usually a few folders below the root of its package.
         let absolute = urdf_folder
             .canonicalize()

@@ -18,7 +18,7 @@ const MAX_STEP_HALVINGS: u32 = 60;
 
 impl ConstantStep {
     /// Returns the longest step, by halving, from the start of a section with a deviation of at most `max_deviation`.
-    /// The section takes one unit of the trajectory's time.
+    /// The section is from `from` to `to` on the path, where the time of `link` is from 0 to 1.
     pub(super) fn longest(
         link: &dyn Trajectory,
         body: &Body,

@@ -55,7 +55,7 @@ pub(crate) fn batch(
     record_batch(ids.chain(columns_of_rows(&columns[1..], rows)))
 }
 
-/// Converts answers about paths to a batch of columns, without ids and times of queries.
+/// Converts answers about paths to a batch of columns. The columns `id` and `micros` are left out.
 pub(crate) fn path_result_batch(
     question: Question,
     rows: &[ResultRow],

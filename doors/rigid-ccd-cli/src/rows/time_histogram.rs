@@ -25,7 +25,7 @@ impl TimeHistogram {
         self.total_micros += micros;
     }
 
-    /// Returns the number of times.
+    /// Returns how many durations were recorded.
     pub(crate) fn count(&self) -> u64 {
         self.count
     }

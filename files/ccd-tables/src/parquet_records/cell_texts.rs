@@ -71,12 +71,12 @@ impl ColumnTexts {
             }
             ColumnReader::ByteArrayColumnReader(reader) => {
                 texts.fill(reader, (count, level), |value, out| {
-                    write_bytes(out, value.data(), kind)
+                    write_text_or_decimal(out, value.data(), kind)
                 })
             }
             ColumnReader::FixedLenByteArrayColumnReader(reader) => {
                 texts.fill(reader, (count, level), |value, out| {
-                    write_bytes(out, value.data(), kind)
+                    write_text_or_decimal(out, value.data(), kind)
                 })
             }
             ColumnReader::Int96ColumnReader(_) => {
@@ -134,7 +134,7 @@ fn missing_values() -> ParquetError {
 const MAX_TEXT_BYTES: usize = 1 << 16;
 
 /// Writes text, or the decimal number that big-endian bytes hold.
-fn write_bytes(out: &mut Vec<u8>, bytes: &[u8], kind: CellKind) -> std::io::Result<()> {
+fn write_text_or_decimal(out: &mut Vec<u8>, bytes: &[u8], kind: CellKind) -> std::io::Result<()> {
     let CellKind::Decimal { scale } = kind else {
         if bytes.len() > MAX_TEXT_BYTES {
             let problem = format!(

@@ -95,3 +95,18 @@ fn a_package_comes_before_what_is_in_it() {
     let outer = fs::canonicalize(package.join("meshes/link.stl")).unwrap();
     assert_eq!(found.unwrap(), outer);
 }
+
+/// Packages that ROS 2 has installed come before those above the URDF: another source of the same package may be there.
+#[test]
+fn packages_of_ament_prefixes_are_below_share() {
+    let folder = create_package();
+    let installed = folder.path().join("install/share/arm_description/meshes");
+    fs::create_dir_all(&installed).unwrap();
+    fs::write(installed.join("link.stl"), "").unwrap();
+    let urdf = folder.path().join("arm_description/urdf/arm.urdf");
+    let prefixes = vec![folder.path().join("install")];
+    let found = SearchFolders::new(&urdf, Vec::new(), prefixes)
+        .find_file("package://arm_description/meshes/link.stl")
+        .unwrap();
+    assert_eq!(found, installed.join("link.stl"));
+}

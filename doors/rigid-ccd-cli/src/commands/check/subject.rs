@@ -1,4 +1,4 @@
-//! The subject that proofs must have: two bodies, or all pairs of a cell.
+//! What the checked proofs must be about: two bodies, or all pairs of a cell.
 
 use crate::bodies::meshes::MeshArgs;
 use anyhow::{Context, Result};
@@ -6,7 +6,7 @@ use ccd_core::order::lesser;
 use ccd_decomp::BodySource;
 use ccd_prove::{Body, ProvenCell, ProvenPair, Statement};
 
-/// The subject that proofs must have.
+/// What the checked proofs must be about.
 pub(super) enum Subject<'c> {
     /// A pair of bodies, with the margin that it keeps. If no body is given, proofs may be about anything.
     Pair(Box<ExpectedPair>, f64),
