@@ -20,11 +20,11 @@ impl SearchFolders {
     /// URDF file.
     pub(super) fn for_urdf(urdf: &Path) -> Self {
         let package_folders = folders_in("ROS_PACKAGE_PATH");
-        SearchFolders::new(urdf, package_folders, folders_in("AMENT_PREFIX_PATH"))
+        SearchFolders::new(urdf, package_folders, &folders_in("AMENT_PREFIX_PATH"))
     }
 
     /// Lists the folders to search. An installed package of ROS 2 is below `share` in a prefix.
-    fn new(urdf: &Path, package_folders: Vec<PathBuf>, ament_prefixes: Vec<PathBuf>) -> Self {
+    fn new(urdf: &Path, package_folders: Vec<PathBuf>, ament_prefixes: &[PathBuf]) -> Self {
         let urdf_folder = urdf.parent().unwrap_or(Path::new("")).to_owned();
         let mut folders = package_folders;
         folders.extend(ament_prefixes.iter().map(|prefix| prefix.join("share")));

@@ -104,8 +104,8 @@ fn packages_of_ament_prefixes_are_below_share() {
     fs::create_dir_all(&installed).unwrap();
     fs::write(installed.join("link.stl"), "").unwrap();
     let urdf = folder.path().join("arm_description/urdf/arm.urdf");
-    let prefixes = vec![folder.path().join("install")];
-    let found = SearchFolders::new(&urdf, Vec::new(), prefixes)
+    let prefixes = [folder.path().join("install")];
+    let found = SearchFolders::new(&urdf, Vec::new(), &prefixes)
         .find_file("package://arm_description/meshes/link.stl")
         .unwrap();
     assert_eq!(found, installed.join("link.stl"));
