@@ -59,6 +59,17 @@ pub enum LinkContactClass {
 }
 
 impl LinkContactClass {
+    /// Returns the name of the class in tables, commands and other languages.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            LinkContactClass::Never => "never",
+            LinkContactClass::Always => "always",
+            LinkContactClass::AlwaysAsEnclosed => "always-as-enclosed",
+            LinkContactClass::Sometimes { .. } => "sometimes",
+            LinkContactClass::Undecided { .. } => "undecided",
+        }
+    }
+
     /// Returns whether the class is proven.
     pub fn is_decided(&self) -> bool {
         !matches!(self, LinkContactClass::Undecided { .. })

@@ -87,15 +87,7 @@ fn link_contact_table(
         let names = links.map(|link| Some(robot.links()[link].name.as_str()));
         Arc::new(names.collect::<StringArray>())
     };
-    let evidence = classes.iter().map(|(_, class)| {
-        Some(match class {
-            LinkContactClass::Never => "never",
-            LinkContactClass::Always => "always",
-            LinkContactClass::AlwaysAsEnclosed => "always-as-enclosed",
-            LinkContactClass::Sometimes { .. } => "sometimes",
-            LinkContactClass::Undecided { .. } => "undecided",
-        })
-    });
+    let evidence = classes.iter().map(|(_, class)| Some(class.name()));
     let numbers = |index: usize| -> ArrayRef {
         let column = classes.iter().map(|(_, class)| match class {
             LinkContactClass::Undecided {

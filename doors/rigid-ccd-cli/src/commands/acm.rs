@@ -116,16 +116,6 @@ fn classify(
     Ok(robot.classify_link_contacts(&settings, show)?)
 }
 
-fn class_name(class: &LinkContactClass) -> &'static str {
-    match class {
-        LinkContactClass::Never => "never",
-        LinkContactClass::Always => "always",
-        LinkContactClass::AlwaysAsEnclosed => "always-as-enclosed",
-        LinkContactClass::Sometimes { .. } => "sometimes",
-        LinkContactClass::Undecided { .. } => "undecided",
-    }
-}
-
 fn summary(classes: &[([usize; 2], LinkContactClass)]) -> String {
     let class_names = [
         "never",
@@ -135,9 +125,7 @@ fn summary(classes: &[([usize; 2], LinkContactClass)]) -> String {
         "undecided",
     ];
     let counts = class_names.map(|name| {
-        let of_class = classes
-            .iter()
-            .filter(|(_, class)| class_name(class) == name);
+        let of_class = classes.iter().filter(|(_, class)| class.name() == name);
         match (name, of_class.count()) {
             ("undecided", count) => format!("{count} are undecided"),
             ("always-as-enclosed", count) => {
@@ -204,7 +192,7 @@ fn write_report(
         };
         let names = links.map(|link| robot.links()[link].name.clone());
         let mut cells = names.to_vec();
-        cells.push(class_name(class).to_owned());
+        cells.push(class.name().to_owned());
         let text = |number: Option<f64>| number.map_or(String::new(), |number| number.to_string());
         cells.extend(numbers.map(text));
         for configuration in configurations {
