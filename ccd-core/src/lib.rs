@@ -134,6 +134,8 @@ pub use fearless_simd;
 pub use glam;
 #[cfg(feature = "exact")]
 pub use math::exact;
+#[doc(hidden)]
+pub use math::simd;
 pub use math::{double_double, order, point_tree, vector};
 pub use motion::Motion;
 pub use motion::bound::VelocityBound;

@@ -7,5 +7,5 @@ pub mod exact;
 pub mod order;
 pub mod point_tree;
 pub(crate) mod principal;
-pub(crate) mod simd;
+pub mod simd;
 pub mod vector;

@@ -1,7 +1,9 @@
 //! The planning scene: a robot among static obstacles.
 
+pub(crate) mod ball_model;
 mod clusters;
 mod compared;
+pub(crate) mod cover;
 mod margins;
 pub(crate) mod part;
 mod planes;
@@ -14,6 +16,7 @@ use crate::pairs::LinkPairs;
 use crate::robot::Robot;
 use crate::tuning::{MAX_LINK_PARTS, MAX_OBSTACLE_PARTS};
 use crate::units::SizeScale;
+use ball_model::BallModel;
 use compared::AllowedPairs;
 use margins::Margins;
 use part::{HullPart, PlacedBody};
@@ -43,6 +46,8 @@ pub struct Cell {
     size_scale: SizeScale,
     /// The smallest body of nonzero size: its index and its size. Computed when it is first needed.
     smallest_item: OnceLock<Option<(usize, f64)>>,
+    /// Covers and tables of the robot. Computed when the first solver is made.
+    ball_model: OnceLock<Arc<BallModel>>,
 }
 
 /// The link to which a body is fixed, and the body's pose in the link's frame.
@@ -97,6 +102,7 @@ impl Cell {
             allowed: AllowedPairs::default(),
             size_scale: robot.size_scale(),
             smallest_item: OnceLock::new(),
+            ball_model: OnceLock::new(),
             robot,
             pairs,
             kinematics,
@@ -198,6 +204,7 @@ impl Cell {
         self.robot_body_placements.remove(index);
         let parts = self.parts.iter().filter(|part| part.owner == index);
         self.robot_part_count -= parts.count();
+        self.ball_model = OnceLock::new();
         self.remove(index);
         Ok(())
     }
@@ -345,6 +352,7 @@ impl Cell {
             attached_name,
         });
         self.robot_part_count += self.insert(index, placed);
+        self.ball_model = OnceLock::new();
         self.fit_planes();
     }
 

@@ -1,6 +1,8 @@
 //! Forward kinematics: the frames of all moving links at a configuration.
 
+pub(crate) mod joint_arms;
 pub(crate) mod magnitude;
+pub(crate) mod moving_frame;
 
 use crate::robot::{PositionSource, Robot};
 use magnitude::Magnitude;
@@ -149,8 +151,19 @@ impl Kinematics {
     /// before children. Other frames keep their poses.
     pub(crate) fn place_joints(
         &self,
-        (seen_from, joints): (usize, &[usize]),
+        chain: (usize, &[usize]),
         configuration: &[f64],
+        frames: &mut Vec<Frame>,
+    ) {
+        let position = |joint: usize| self.joints[joint].source.position(configuration);
+        self.place_joints_at(chain, position, frames);
+    }
+
+    /// The same as [`Kinematics::place_joints`], for the positions that `position` returns.
+    pub(crate) fn place_joints_at(
+        &self,
+        (seen_from, joints): (usize, &[usize]),
+        position: impl Fn(usize) -> f64,
         frames: &mut Vec<Frame>,
     ) {
         frames.resize(self.joints.len() + 1, Frame::IDENTITY);
@@ -158,7 +171,7 @@ impl Kinematics {
         for &index in joints {
             let joint = &self.joints[index];
             let parent = frames[joint.parent];
-            frames[index + 1] = joint.place(&parent, joint.source.position(configuration));
+            frames[index + 1] = joint.place(&parent, position(index));
         }
     }
 }
@@ -199,7 +212,18 @@ impl MovingJoint {
         }
     }
 
+    /// Returns the rotation from the joint's frame to the parent's at position 0.
+    pub(crate) fn rotation_at_zero(&self) -> DMat3 {
+        self.constant_term + self.cosine_coefficient
+    }
+
+    /// Returns the unit vector along the axis, in the frame that the joint moves.
+    pub(crate) fn axis_in_own_frame(&self) -> DVec3 {
+        self.rotation_at_zero().transpose() * self.axis
+    }
+
     /// Returns the frame that the joint moves.
+    #[inline(always)]
     fn place(&self, parent: &Frame, position: f64) -> Frame {
         if self.is_prismatic {
             return Frame {

@@ -1,5 +1,6 @@
 //! Answers questions about paths: a robot moves through configurations, or along a curve.
 
+pub(crate) mod ball_test;
 mod boxes;
 mod clearance_ranges;
 mod constant_step;

@@ -124,3 +124,11 @@ pub(crate) fn least_distance_of_links(robot: &Robot, links: [usize; 2], at: &[f6
     }
     least
 }
+
+/// Returns a cell of one static link with a body.
+pub(crate) fn cell_of_body(body: Body) -> crate::cell::Cell {
+    let link = Link::named("body").with_body(body, Pose::IDENTITY);
+    let robot = Robot::new(vec![link], vec![]).unwrap();
+    let pairs = crate::pairs::LinkPairs::from_robot(&robot);
+    crate::cell::Cell::new(robot, pairs)
+}

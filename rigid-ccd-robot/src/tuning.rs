@@ -82,3 +82,32 @@ pub(crate) const ROUND_FACTOR: usize = 4;
 /// The number of boxes after which the search for a pair of links ends, if the links touch without overlapping at the
 /// center of every box so far.
 pub(crate) const MAX_BOXES_WITHOUT_DEPTH: usize = 4000;
+
+/// The mean number of balls that cover a part of a robot. More balls fit better and leave fewer intervals open, but
+/// each is tested against all obstacles near it.
+pub(crate) const BALLS_PER_PART: f64 = 2.5;
+
+/// A piece of a part is cut in two if the larger ball of both halves is smaller than this fraction of its own ball.
+pub(crate) const LEAST_CUT_GAIN: f64 = 0.95;
+
+/// The numbers of steps in which the center of a ball is found: of a ball that is used, and of one that is compared.
+pub(crate) const BALL_STEPS: u32 = 300;
+pub(crate) const TRIAL_BALL_STEPS: u32 = 8;
+
+/// The largest number of cells of all tables of distances together, and the distance beyond which tables are not
+/// accurate, in metres.
+pub(crate) const MAX_TABLE_CELLS: usize = 1 << 16;
+pub(crate) const MAX_TABLE_DISTANCE: f64 = 0.5;
+
+/// The displacement of a ball, in metres, from which an interval that it leaves open is divided again, and how often.
+pub(crate) const MIN_DIVIDED_DISPLACEMENT: f32 = 0.012;
+pub(crate) const MAX_DIVISIONS: u32 = 2;
+
+/// The largest error of the ball test in f32, as a fraction of the largest ball. Beyond it the test proves little.
+pub(crate) const MAX_BALL_TEST_ERROR: f64 = 0.05;
+
+/// The largest number of steps along a pair's open interval before the search by halving takes over.
+pub(crate) const MAX_ADVANCES: usize = 48;
+
+/// How often a contact may be found in the same intervals before the search by halving looks for an earlier one.
+pub(crate) const MAX_TESTS_BEFORE_CONTACT: u32 = 2;

@@ -16,15 +16,19 @@ pub(crate) const LEAST_DIVISOR: f32 = f32::MIN_POSITIVE;
 
 /// Eight vectors of three coordinates in f32.
 #[derive(Clone, Copy)]
-pub(crate) struct Vec3x8<L: Simd> {
-    pub(crate) x: f32x8<L>,
-    pub(crate) y: f32x8<L>,
-    pub(crate) z: f32x8<L>,
+pub struct Vec3x8<L: Simd> {
+    /// The eight x coordinates.
+    pub x: f32x8<L>,
+    /// The eight y coordinates.
+    pub y: f32x8<L>,
+    /// The eight z coordinates.
+    pub z: f32x8<L>,
 }
 
 impl<L: Simd> Vec3x8<L> {
+    /// Repeats one vector eight times.
     #[inline(always)]
-    pub(crate) fn splat(level: L, v: Vec3) -> Self {
+    pub fn splat(level: L, v: Vec3) -> Self {
         Vec3x8 {
             x: f32x8::splat(level, v.x),
             y: f32x8::splat(level, v.y),
@@ -32,8 +36,9 @@ impl<L: Simd> Vec3x8<L> {
         }
     }
 
+    /// Loads eight vectors from rows of x, y and z.
     #[inline(always)]
-    pub(crate) fn load(level: L, rows: &[[f32; 8]; 3]) -> Self {
+    pub fn load(level: L, rows: &[[f32; 8]; 3]) -> Self {
         let [x, y, z] = rows;
         Vec3x8 {
             x: load(level, x),
@@ -42,23 +47,27 @@ impl<L: Simd> Vec3x8<L> {
         }
     }
 
+    /// Returns the token of the instructions.
     #[inline(always)]
-    pub(crate) fn simd_level(&self) -> L {
+    pub fn simd_level(&self) -> L {
         self.x.token()
     }
 
+    /// Returns the dot products.
     #[inline(always)]
-    pub(crate) fn dot(self, other: Self) -> f32x8<L> {
+    pub fn dot(self, other: Self) -> f32x8<L> {
         self.x * other.x + (self.y * other.y + self.z * other.z)
     }
 
+    /// Returns the lengths.
     #[inline(always)]
-    pub(crate) fn length(self) -> f32x8<L> {
+    pub fn length(self) -> f32x8<L> {
         self.dot(self).sqrt()
     }
 
+    /// Returns the cross products.
     #[inline(always)]
-    pub(crate) fn cross(self, other: Self) -> Self {
+    pub fn cross(self, other: Self) -> Self {
         Vec3x8 {
             x: self.y * other.z - self.z * other.y,
             y: self.z * other.x - self.x * other.z,
@@ -99,13 +108,15 @@ impl<L: Simd> Mul<f32x8<L>> for Vec3x8<L> {
     }
 }
 
+/// Repeats a number eight times.
 #[inline(always)]
-pub(crate) fn splat<L: Simd>(level: L, x: f32) -> f32x8<L> {
+pub fn splat<L: Simd>(level: L, x: f32) -> f32x8<L> {
     f32x8::splat(level, x)
 }
 
+/// Loads eight numbers.
 #[inline(always)]
-pub(crate) fn load<L: Simd>(level: L, row: &[f32; 8]) -> f32x8<L> {
+pub fn load<L: Simd>(level: L, row: &[f32; 8]) -> f32x8<L> {
     (*row).simd_into(level)
 }
 

@@ -5,6 +5,7 @@ use crate::error::{NothingCompared, RobotError};
 use crate::pairs::ordered_pair;
 use crate::skip_reason::SkipReason;
 use std::collections::BTreeSet;
+use std::sync::OnceLock;
 
 /// The pairs of bodies that may touch, by body index, the lower one first. Unchecked pairs of links are not in it.
 #[derive(Clone, Debug, Default)]
@@ -63,6 +64,7 @@ impl Cell {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn allow_contact(&mut self, pair: [Item<'_>; 2]) -> Result<(), RobotError> {
+        self.forget_ball_model_of(pair);
         match self.checked_links_of(pair)? {
             Some([a, b]) if a != b => {
                 if self.pairs.is_checked(a, b) {
@@ -84,6 +86,7 @@ impl Cell {
     /// # Errors
     /// The same as [`Cell::allow_contact`].
     pub fn forbid_contact(&mut self, pair: [Item<'_>; 2]) -> Result<(), RobotError> {
+        self.forget_ball_model_of(pair);
         let bodies = self.bodies_of_pair(pair)?;
         match self.checked_links_of(pair)? {
             Some([a, b]) => self.pairs.include(a, b),
@@ -139,6 +142,14 @@ impl Cell {
                 earlier.filter(move |(_, part_b)| self.is_compared(part_a.owner, part_b.owner));
             checked.map(move |(b, _)| [a, b])
         })
+    }
+
+    /// Discards the tables of distances if the pair is of the robot's own bodies, so that they are computed again for
+    /// the checked pairs.
+    fn forget_ball_model_of(&mut self, pair: [Item<'_>; 2]) {
+        if !pair.iter().any(|item| matches!(item, Item::Obstacle(_))) {
+            self.ball_model = OnceLock::new();
+        }
     }
 
     /// Returns whether a pair of bodies is allowed to touch. Unchecked pairs of links are not considered.

@@ -1,6 +1,7 @@
 //! Bodies in a cell, and the convex hulls that enclose them, in the frames to which they are fixed.
 
 mod plane;
+pub(crate) mod rounded_box;
 
 use super::clusters::connected_clusters;
 use ccd_core::fan_triangles;

@@ -118,6 +118,15 @@ impl JointPath {
         self.coefficient_row(segment, 1)
     }
 
+    /// Returns where each joint starts in a segment with constant rates, and how far it moves.
+    #[inline(always)]
+    pub(crate) fn starts_and_changes(&self, segment: usize) -> (&[f64], &[f64]) {
+        (
+            self.coefficient_row(segment, 0),
+            self.coefficient_row(segment, 1),
+        )
+    }
+
     /// Returns, for each joint, the magnitude of its positions on the path.
     pub(crate) fn magnitudes(&self) -> impl Iterator<Item = Magnitude> + Clone {
         self.magnitudes.iter().copied()

@@ -26,6 +26,8 @@ pub(crate) struct PartPair {
 pub(crate) struct PartPairs<'c> {
     cell: &'c Cell,
     obstacle_boxes: ObstacleBoxes,
+    /// For each part of the robot, the index of the bound of its displacement relative to the base.
+    displacement_index_by_part: Vec<Option<u32>>,
     /// The pairs of the robot's own parts.
     self_pairs: Vec<PartPair>,
     /// The margin of pairs without a clearance.
@@ -92,7 +94,11 @@ impl<'c> PartPairs<'c> {
         let own = cell
             .checked_robot_part_pairs()
             .map(|parts| PartPair::of_robot(cell, displacements, parts));
+        let robot_parts = 0..cell.robot_part_count();
         let mut pairs = PartPairs {
+            displacement_index_by_part: robot_parts
+                .map(|part| displacements.bound_index_seen_from_base(part))
+                .collect(),
             obstacle_boxes: ObstacleBoxes::new(&cell.parts()[cell.robot_part_count()..]),
             self_pairs: own.collect(),
             cell,
@@ -102,6 +108,29 @@ impl<'c> PartPairs<'c> {
         };
         pairs.update_margins();
         pairs
+    }
+
+    /// Returns the checked pairs of the robot's own parts.
+    pub(crate) fn self_pairs(&self) -> &[PartPair] {
+        &self.self_pairs
+    }
+
+    /// Returns an upper bound of the margins of all pairs with an obstacle.
+    pub(crate) fn largest_obstacle_margin(&self) -> f64 {
+        self.largest_obstacle_margin
+    }
+
+    /// Returns the margin of a pair of a body of the robot and an obstacle.
+    #[inline(always)]
+    pub(crate) fn obstacle_margin(&self, bodies: [usize; 2]) -> f64 {
+        self.cell.margin(bodies, self.margin) + self.margin_increase
+    }
+
+    /// Returns the pair of a moving part of the robot and a part of an obstacle, by their indices in the cell.
+    pub(crate) fn pair_with_obstacle(&self, [a, b]: [usize; 2]) -> PartPair {
+        let index = self.displacement_index_by_part[a];
+        let bodies = [a, b].map(|part| self.cell.parts()[part].owner);
+        PartPair::new([a, b], [index, None], self.obstacle_margin(bodies))
     }
 
     /// Returns the number of all pairs, checked or not.
@@ -163,7 +192,7 @@ impl<'c> PartPairs<'c> {
                     if cell.is_allowed(bodies) {
                         return;
                     }
-                    let margin = cell.margin(bodies, self.margin) + self.margin_increase;
+                    let margin = self.obstacle_margin(bodies);
                     pairs.push(PartPair::new([a, b], [index, None], margin));
                 });
         }

@@ -5,9 +5,12 @@
 //! interval. The interval is halved for the remaining candidates. Candidates that a few halvings do not decide are
 //! left to the engine, pair by pair.
 
+mod advance;
+mod open_intervals;
 mod start;
 
 use super::Goal;
+use super::ball_test::BallTest;
 use super::engine_candidates::{EngineCandidate, EngineCandidates};
 use super::exact::PairChains;
 use super::limits::StopCondition;
@@ -30,6 +33,7 @@ use crate::tuning::{
 use ccd_core::order::{greater, lesser};
 use ccd_core::schedule::VectorInstructions;
 use ccd_core::vectorize;
+use open_intervals::Intervals;
 use rigid_ccd::answer::Limit;
 use rigid_ccd::{Error, Settings, Solver};
 use start::StartContact;
@@ -46,6 +50,17 @@ pub(crate) struct PathSearch<'c> {
     pub(super) path: JointPath,
     pub(super) placement: Placement,
     pub(super) periods: Periods,
+    /// The first test of a segment at constant rates, and the intervals that it leaves open.
+    pub(super) ball_test: BallTest<'c>,
+    intervals: Intervals,
+    /// For the open interval of a pair: the joints between both parts, the positions of all joints, and the intervals
+    /// that are not searched yet, the latest first.
+    joints_between: [Vec<usize>; 2],
+    positions: Vec<f64>,
+    unsearched: Vec<[f64; 2]>,
+    /// The point of the path up to which all pairs are searched, while intervals are searched pair by pair; infinity
+    /// otherwise.
+    searched_until: f64,
     /// A stack of candidate pairs: the candidates of the whole path, then of its current half, and so on down to the
     /// current interval.
     pub(super) candidates: Vec<PartPair>,
@@ -112,10 +127,17 @@ fn drift(period: Option<SearchedPeriod>) -> f64 {
 impl<'c> PathSearch<'c> {
     pub(crate) fn new(cell: &'c Cell) -> Self {
         let placement = Placement::new(cell);
+        let pairs = PartPairs::new(cell, &placement.displacement_bounds);
         PathSearch {
+            ball_test: BallTest::new(cell, &pairs),
+            intervals: Intervals::default(),
+            joints_between: Default::default(),
+            positions: Vec::new(),
+            unsearched: Vec::new(),
+            searched_until: f64::INFINITY,
             cell,
             compares_any: cell.check_any_compared(),
-            pairs: PartPairs::new(cell, &placement.displacement_bounds),
+            pairs,
             exact_chains: PairChains::new(cell),
             path: JointPath::default(),
             placement,
@@ -216,12 +238,15 @@ impl<'c> PathSearch<'c> {
         self.compares_any.clone()?;
         self.cell.check_plane_reach(self.path.magnitudes())?;
         self.placement.begin(self.cell, &self.path);
+        let (kinematics, parts) = (self.cell.kinematics(), self.cell.parts());
+        let longest_arm = largest_arm(kinematics, parts, self.path.magnitudes());
+        self.ball_test
+            .set_path(&self.path, longest_arm, self.placement.rounding);
         // One half is added to margins. The other half bounds the errors of measured distances.
         let rounding = 4.0 * self.placement.rounding;
         self.tolerance = greater(self.settings.tolerance, rounding);
-        let (kinematics, parts) = (self.cell.kinematics(), self.cell.parts());
         let limit = || DriftLimit {
-            largest_arm: largest_arm(kinematics, parts, self.path.magnitudes()),
+            largest_arm: longest_arm,
             rounding: self.placement.rounding,
             max_drift: MAX_DRIFT_SHARE * self.tolerance,
         };
@@ -237,7 +262,12 @@ impl<'c> PathSearch<'c> {
     ) -> Result<(), Error> {
         self.begin_question(goal, &interval);
         self.start_contacts.clear();
-        match self.search(interval, None)? {
+        let step = if self.uses_ball_test() {
+            self.search_segments(interval)?
+        } else {
+            self.search(interval, None)?
+        };
+        match step {
             Break(()) => Ok(()),
             Continue(()) => self.decide_engine_candidates(),
         }
@@ -246,6 +276,7 @@ impl<'c> PathSearch<'c> {
     pub(super) fn begin_question(&mut self, goal: Goal, interval: &PathInterval) {
         self.goal = goal;
         self.search_start = interval.from;
+        self.searched_until = f64::INFINITY;
         self.stop_condition.begin_search(interval);
         self.result = PathSearchResult::NOTHING_FOUND;
         self.candidates.clear();
@@ -311,7 +342,8 @@ impl<'c> PathSearch<'c> {
         let Some(limit) = self.stop_condition.reached_limit() else {
             return Continue(());
         };
-        let searched_until = lesser(interval.from, self.engine_candidates.earliest_start());
+        let searched_until = lesser(interval.from, self.searched_until);
+        let searched_until = lesser(searched_until, self.engine_candidates.earliest_start());
         self.result.limit_reached = Some((limit, searched_until));
         self.result.lower = 0.0;
         Break(())

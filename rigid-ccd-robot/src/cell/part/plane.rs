@@ -11,9 +11,9 @@ use rigid_ccd::oracle::Frame;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane {
     /// The unit normal, which points out of the half-space.
-    normal: DVec3,
+    pub(crate) normal: DVec3,
     /// The signed distance of the plane from the origin, along the normal.
-    offset: f64,
+    pub(crate) offset: f64,
 }
 
 impl Plane {

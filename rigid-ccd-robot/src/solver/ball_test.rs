@@ -1,0 +1,502 @@
+//! The first test of a segment at constant rates: eight intervals at once, in f32.
+//!
+//! | step | file |
+//! |---|---|
+//! | balls that cover the links, made once a robot | `cell/cover.rs` |
+//! | the frames of all links at the midpoints of eight intervals, with velocities | `ball_test/frames.rs`, `sine.rs` |
+//! | the obstacles that a ball around each link may meet in any of the intervals | `obstacles.rs` |
+//! | for each ball, the distances of its center, and how far the center gets | `ball_test.rs` |
+//! | links against links: tables of distances, and balls against balls | `self_pairs.rs`, `distance_table.rs` |
+//! | bounds of rounding errors | `error.rs` |
+//!
+//! Let `c` be the center of a ball at the midpoint of an interval, `v` its velocity there, `h` half the length of the
+//! interval and `M` a bound of the second derivative of its position. Within the interval, the center stays within
+//! `h |v| + h² M / 2` of `c`. If its distance from an obstacle exceeds that and the radius, the ball is free in the
+//! interval. A ball does not turn about its center, so only the center matters. If the distance is less than the radius
+//! of a ball inside the link, the link touches the obstacle.
+
+mod distance_table;
+mod error;
+mod frames;
+mod obstacles;
+mod placed_balls;
+mod self_pairs;
+mod sine;
+
+use super::part_pairs::{PartPair, PartPairs};
+use crate::cell::Cell;
+use crate::cell::ball_model::BallModel;
+use crate::cell::cover::Covers;
+use crate::kinematics::joint_arms::{JointArms, MotionBounds};
+use crate::path::joint_path::JointPath;
+use crate::tuning::{MAX_BALL_TEST_ERROR, MIN_DIVIDED_DISPLACEMENT};
+use ccd_core::fearless_simd::{Simd, f32x8, prelude::*};
+use ccd_core::order::greater;
+use ccd_core::schedule::VectorInstructions;
+use ccd_core::simd::{Vec3x8, splat};
+use ccd_core::vectorize;
+use error::{ENLARGED, ErrorSources, LaneErrors};
+use frames::{LaneFrame, LaneJoint, place_frames};
+use obstacles::{Obstacle, Obstacles};
+use placed_balls::{LaneBall, LaneBalls, PlacedBall};
+use self_pairs::SelfPair;
+use sine::MAX_ANGLE;
+use std::f64::consts::TAU;
+
+/// The number of intervals that are tested at once.
+pub(crate) const LANES: usize = 8;
+
+/// Tests eight intervals of a segment at once.
+pub(crate) struct BallTest<'c> {
+    cell: &'c Cell,
+    joints: Vec<LaneJoint>,
+    balls: LaneBalls,
+    obstacles: Obstacles,
+    self_pairs: Vec<SelfPair>,
+    /// The joints between frames and their ancestors: first for each frame and the base, then others for pairs.
+    arms: Vec<JointArms>,
+    // For the current path and segment:
+    largest_positions: Vec<f64>,
+    /// A bound of the distance of any point of a robot's part from the base and from any joint axis.
+    longest_arm: f64,
+    pose_rounding: f64,
+    errors: LaneErrors,
+    rates: Vec<f32>,
+    motion_bounds: Vec<MotionBounds>,
+    // For the current intervals:
+    half_length: f64,
+    positions: Vec<[f32; LANES]>,
+    frames: Vec<LaneFrame>,
+    placed: Vec<PlacedBall>,
+    /// The tested pairs, and what the test has found out about each. Pairs with obstacles are sorted by part.
+    tested: Vec<TestedPair>,
+    /// A pair that is proven to touch at the midpoint of an interval.
+    touching: Option<TouchingPair>,
+    near: Vec<u32>,
+}
+
+/// A pair of parts that the ball test compares.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum BallPair {
+    /// A part of the robot, and the index of an obstacle's part among those of all obstacles.
+    Obstacle { part: u32, obstacle: u32 },
+    /// The index of a pair of the robot's own parts.
+    OfRobot(u32),
+}
+
+/// A pair, and what the test has found out about it in eight intervals.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TestedPair {
+    pub(crate) pair: BallPair,
+    /// The distance at which the pair counts as touching.
+    margin: f64,
+    /// The intervals in which the pair may touch, as bits.
+    pub(crate) open: u8,
+    /// The open intervals in which a ball gets far.
+    pub(crate) far_moving: u8,
+    /// The interval with the least lower bound of the distance at its midpoint, and that bound.
+    pub(crate) nearest: u8,
+    pub(crate) least_gap: f32,
+}
+
+/// A pair that touches at the midpoint of an interval.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TouchingPair {
+    pub(crate) pair: BallPair,
+    pub(crate) lane: usize,
+}
+
+/// The result of comparing one ball in eight intervals.
+#[derive(Clone, Copy)]
+struct BallGaps<L: Simd> {
+    /// The gap between the ball and the other shape at the midpoints.
+    gap: f32x8<L>,
+    /// How far the ball gets in the interval.
+    way: f32x8<L>,
+    /// The gap at which the smaller ball inside the link is proven to touch.
+    touching_gap: f32,
+}
+
+impl TestedPair {
+    fn new(pair: BallPair, margin: f64) -> Self {
+        TestedPair {
+            pair,
+            margin,
+            open: 0,
+            far_moving: 0,
+            nearest: 0,
+            least_gap: f32::INFINITY,
+        }
+    }
+}
+
+impl<'c> BallTest<'c> {
+    pub(crate) fn new(cell: &'c Cell, pairs: &PartPairs<'c>) -> Self {
+        let model = cell.ball_model(|| BallModel {
+            covers: Covers::of_parts(&cell.parts()[..cell.robot_part_count()]),
+            tables: distance_table::tables_of(cell, pairs.self_pairs()),
+        });
+        let kinematics = cell.kinematics();
+        let (joints, to_lane_frames) = LaneJoint::of_robot(kinematics);
+        let robot_parts = &cell.parts()[..cell.robot_part_count()];
+        let points_of = |frame: usize| {
+            let parts = robot_parts.iter().filter(|part| part.frame == frame);
+            let points = parts.flat_map(|part| part.points().iter().copied());
+            points.collect::<Vec<_>>()
+        };
+        let frame_count = joints.len() + 1;
+        let mut arms: Vec<JointArms> = (0..frame_count)
+            .map(|frame| JointArms::new(kinematics, (frame, &points_of(frame)), 0))
+            .collect();
+        let self_pairs = pairs.self_pairs().iter().zip(&model.tables);
+        let self_pairs = self_pairs.map(|(pair, table)| {
+            let parts = [pair.a as usize, pair.b as usize];
+            let frames = parts.map(|part| cell.parts()[part].frame);
+            let common_frame = kinematics.common_frame(frames);
+            let arms = [0, 1].map(|k| {
+                if common_frame == 0 {
+                    return frames[k];
+                }
+                let points = (frames[k], cell.parts()[parts[k]].points());
+                arms.push(JointArms::new(kinematics, points, common_frame));
+                arms.len() - 1
+            });
+            SelfPair::new(cell, (parts, common_frame), arms, table.as_ref())
+        });
+        let self_pairs = self_pairs.collect();
+        BallTest {
+            balls: LaneBalls::new(&model.covers, robot_parts, &to_lane_frames),
+            obstacles: Obstacles::new(&cell.parts()[robot_parts.len()..], robot_parts.len()),
+            self_pairs,
+            largest_positions: Vec::new(),
+            longest_arm: 0.0,
+            pose_rounding: 0.0,
+            errors: LaneErrors::default(),
+            rates: vec![0.0; joints.len()],
+            motion_bounds: vec![MotionBounds::default(); arms.len()],
+            arms,
+            half_length: 0.0,
+            positions: vec![[0.0; LANES]; joints.len()],
+            frames: vec![LaneFrame::BASE; frame_count],
+            placed: Vec::new(),
+            tested: Vec::new(),
+            touching: None,
+            near: Vec::new(),
+            joints,
+            cell,
+        }
+    }
+
+    /// Sets the path. `longest_arm` bounds the distance of any point of a moving part from the base and from any joint
+    /// axis, `pose_rounding` the error of poses in f64.
+    pub(crate) fn set_path(&mut self, path: &JointPath, longest_arm: f64, pose_rounding: f64) {
+        let positions = path.magnitudes().map(|magnitude| magnitude.position);
+        self.largest_positions.clear();
+        self.largest_positions.extend(positions);
+        self.longest_arm = greater(longest_arm, self.balls.static_reach);
+        self.pose_rounding = pose_rounding;
+    }
+
+    /// Sets the segment. Returns whether the test can be used for it: not if a joint turns very often, and not if
+    /// rounding errors in f32 are large.
+    pub(crate) fn set_segment(&mut self, changes: &[f64]) -> bool {
+        let sources = ErrorSources {
+            longest_arm: self.longest_arm,
+            pose_rounding: self.pose_rounding,
+            changes,
+            largest_positions: &self.largest_positions,
+        };
+        let kinematics = self.cell.kinematics();
+        self.errors = LaneErrors::new(kinematics, &sources);
+        let mut joints = kinematics.joints().iter().zip(changes);
+        let is_slow =
+            joints.all(|(joint, change)| joint.is_prismatic || change.abs() < MAX_ANGLE - TAU);
+        // Written so that NaN is refused.
+        if !(is_slow && self.errors.position < MAX_BALL_TEST_ERROR * self.balls.largest_radius) {
+            return false;
+        }
+        for (rate, change) in self.rates.iter_mut().zip(changes) {
+            *rate = *change as f32;
+        }
+        for (bounds, arms) in self.motion_bounds.iter_mut().zip(&self.arms) {
+            *bounds = arms.motion_bounds(changes, &self.largest_positions);
+        }
+        true
+    }
+
+    /// Returns bounds of the motion of both parts of a pair relative to their common ancestor frame, for the current
+    /// segment.
+    pub(crate) fn acceleration_bound(&self, pair: BallPair) -> f64 {
+        match pair {
+            BallPair::Obstacle { part, .. } => {
+                let frame = self.cell.parts()[part as usize].frame;
+                self.motion_bounds[frame].acceleration
+            }
+            BallPair::OfRobot(index) => {
+                let [a, b] = self.self_pairs[index as usize].arms;
+                self.motion_bounds[a].acceleration + self.motion_bounds[b].acceleration
+            }
+        }
+    }
+
+    /// Returns the pair with its margin.
+    pub(crate) fn part_pair(&self, pairs: &PartPairs<'c>, pair: BallPair) -> PartPair {
+        match pair {
+            BallPair::Obstacle { part, obstacle } => {
+                let obstacle = self.obstacles.all[obstacle as usize].part;
+                pairs.pair_with_obstacle([part as usize, obstacle])
+            }
+            BallPair::OfRobot(index) => pairs.self_pairs()[index as usize],
+        }
+    }
+
+    /// Tests the eight intervals of equal length between two fractions of the segment: for the pairs `among`, or for
+    /// all pairs if it is `None`. The result is in [`BallTest::open_pairs`], and in [`BallTest::touching`] if a pair
+    /// touches. If it does, some pairs are not tested.
+    pub(crate) fn test(
+        &mut self,
+        path: (&JointPath, usize),
+        fractions: [f64; 2],
+        pairs: &PartPairs<'c>,
+        among: Option<&[TestedPair]>,
+    ) {
+        let simd_level = VectorInstructions::Best.simd_level();
+        vectorize!(simd_level, level => self.test_intervals(level, path, fractions, pairs, among));
+    }
+
+    /// Returns the tested pairs that are open in some interval.
+    pub(crate) fn open_pairs(&self) -> impl Iterator<Item = &TestedPair> {
+        self.tested.iter().filter(|pair| pair.open != 0)
+    }
+
+    pub(crate) fn touching(&self) -> Option<TouchingPair> {
+        self.touching
+    }
+
+    /// Returns the number of the pairs that the last test compared.
+    pub(crate) fn tested_pair_count(&self) -> usize {
+        self.tested.len()
+    }
+
+    #[inline(always)]
+    fn test_intervals<L: Simd>(
+        &mut self,
+        level: L,
+        (path, segment): (&JointPath, usize),
+        fractions: [f64; 2],
+        pairs: &PartPairs<'c>,
+        among: Option<&[TestedPair]>,
+    ) {
+        self.touching = None;
+        self.tested.clear();
+        self.set_intervals(path, segment, fractions);
+        place_frames(
+            level,
+            &self.joints,
+            (&self.positions, &self.rates),
+            &mut self.frames,
+        );
+        self.balls.place(level, &self.frames, &mut self.placed);
+        match among {
+            Some(among) => {
+                let fresh = |pair: &TestedPair| TestedPair::new(pair.pair, pair.margin);
+                self.tested.extend(among.iter().map(fresh));
+            }
+            None => self.append_all_pairs(level, pairs),
+        }
+        let mut first = 0;
+        while first < self.tested.len() && self.touching.is_none() {
+            match self.tested[first].pair {
+                BallPair::Obstacle { part, .. } => {
+                    first = self.compare_obstacles(level, part, first)
+                }
+                BallPair::OfRobot(index) => {
+                    self.compare_robot_pair(level, first, index as usize);
+                    first += 1;
+                }
+            }
+        }
+    }
+
+    /// Computes the positions of all joints at the midpoints of eight intervals.
+    #[inline(always)]
+    fn set_intervals(&mut self, path: &JointPath, segment: usize, [from, to]: [f64; 2]) {
+        // A lane's interval may be rounded by a few units of f64.
+        self.half_length = (to - from) / (2 * LANES) as f64 * ENLARGED + 4.0 * f64::EPSILON;
+        let (middle, step) = (0.5 * (from + to), (to - from) / (2 * LANES) as f64);
+        let (starts, changes) = path.starts_and_changes(segment);
+        for (k, joint) in self.cell.kinematics().joints().iter().enumerate() {
+            let mut center = starts[k] + middle * changes[k];
+            if !joint.is_prismatic {
+                center -= TAU * (center / TAU).round();
+            }
+            for (lane, position) in self.positions[k].iter_mut().enumerate() {
+                let offset = (2 * lane) as f64 - (LANES - 1) as f64;
+                *position = (center + changes[k] * (step * offset)) as f32;
+            }
+        }
+    }
+
+    /// Appends the pairs of all links with the obstacles that may come near them, and the pairs of the robot's own
+    /// parts. The links farthest from the base come first: they get farther, and touch more often.
+    #[inline(always)]
+    fn append_all_pairs<L: Simd>(&mut self, level: L, pairs: &PartPairs<'c>) {
+        let parts = self.cell.parts();
+        for frame in (1..self.frames.len()).rev() {
+            let Some(ball) = self.balls.ball_around_frame[frame] else {
+                continue;
+            };
+            let displacement = self.displacement_beyond_velocity(frame, frame);
+            let half_length = splat(level, self.half_length as f32);
+            let [centers, velocities] = self.frames[frame].load(level).point(level, ball.center);
+            let middle = 0.5 * (vector_of_lane(centers, 3) + vector_of_lane(centers, 4));
+            let offset = centers - Vec3x8::splat(level, middle);
+            let reach = offset.length() + velocities.length() * half_length;
+            let mut farthest = 0.0;
+            for lane in 0..LANES {
+                farthest = greater(farthest, reach[lane]);
+            }
+            let radius = (f64::from(farthest) + f64::from(ball.radius)) * ENLARGED
+                + displacement
+                + pairs.largest_obstacle_margin();
+            self.near.clear();
+            let near = &mut self.near;
+            let point = (middle, self.longest_arm);
+            self.obstacles
+                .for_each_near(level, point, radius, |obstacle| near.push(obstacle));
+            for &part in &self.balls.parts_by_frame[frame] {
+                for &obstacle in &self.near {
+                    let both = [part as usize, self.obstacles.all[obstacle as usize].part];
+                    let bodies = both.map(|part| parts[part].owner);
+                    if !self.cell.is_allowed(bodies) {
+                        let pair = BallPair::Obstacle { part, obstacle };
+                        let margin = pairs.obstacle_margin(bodies);
+                        self.tested.push(TestedPair::new(pair, margin));
+                    }
+                }
+            }
+        }
+        for (index, pair) in (0..).zip(pairs.self_pairs()) {
+            let tested = TestedPair::new(BallPair::OfRobot(index), pair.margin);
+            self.tested.push(tested);
+        }
+    }
+
+    /// Compares a part with obstacles: the tested pairs from the index `first` that begin with the part. Returns the
+    /// index of the next pair.
+    #[inline(always)]
+    fn compare_obstacles<L: Simd>(&mut self, level: L, part: u32, first: usize) -> usize {
+        let of_part = |tested: &TestedPair| match tested.pair {
+            BallPair::Obstacle { part: own, .. } => own == part,
+            BallPair::OfRobot(_) => false,
+        };
+        let count = self.tested[first..]
+            .iter()
+            .take_while(|pair| of_part(pair))
+            .count();
+        let frame = self.cell.parts()[part as usize].frame;
+        let displacement = self.displacement_beyond_velocity(frame, frame);
+        let half_length = splat(level, self.half_length as f32);
+        for index in self.balls.of_part(part as usize) {
+            let ball: LaneBall = self.balls.all[index];
+            let (center, velocity) = self.placed[index].load(level);
+            let way = velocity.length() * half_length + splat(level, displacement as f32);
+            for k in first..first + count {
+                let BallPair::Obstacle { obstacle, .. } = self.tested[k].pair else {
+                    continue;
+                };
+                let obstacle = &self.obstacles.all[obstacle as usize];
+                let (gaps, error) = self.obstacle_gaps(level, (&ball, center), obstacle, way);
+                self.record(level, k, gaps, error);
+            }
+        }
+        first + count
+    }
+
+    /// Compares a ball with an obstacle. Returns the error of the gaps as well.
+    #[inline(always)]
+    fn obstacle_gaps<L: Simd>(
+        &self,
+        level: L,
+        (ball, center): (&LaneBall, Vec3x8<L>),
+        obstacle: &Obstacle,
+        way: f32x8<L>,
+    ) -> (BallGaps<L>, f64) {
+        let error = obstacle.error(self.longest_arm);
+        let touching_gap = if obstacle.is_exact {
+            let inner = f64::from(ball.inner_radius) - f64::from(ball.radius);
+            inner - error - self.errors.position
+        } else {
+            f64::NEG_INFINITY
+        };
+        let gaps = BallGaps {
+            gap: obstacle.distances(level, center) - splat(level, ball.radius),
+            way,
+            touching_gap: touching_gap as f32,
+        };
+        (gaps, error)
+    }
+
+    /// Returns a bound of the displacement of a point in half an interval, without the part that follows from its
+    /// velocity: by the second derivative and by errors. The arguments are indices of `motion_bounds`.
+    #[inline(always)]
+    fn displacement_beyond_velocity(&self, one: usize, other: usize) -> f64 {
+        let acceleration = if one == other {
+            self.motion_bounds[one].acceleration
+        } else {
+            self.motion_bounds[one].acceleration + self.motion_bounds[other].acceleration
+        };
+        let h = self.half_length;
+        (0.5 * h * h * acceleration + h * self.errors.velocity + self.errors.position) * ENLARGED
+    }
+
+    /// Records the intervals in which a ball of a tested pair may touch. `error` bounds the error of the gaps.
+    #[inline(always)]
+    fn record<L: Simd>(&mut self, level: L, index: usize, gaps: BallGaps<L>, error: f64) {
+        let allowance = (self.tested[index].margin + error) * ENLARGED;
+        let is_free = gaps
+            .gap
+            .simd_gt(gaps.way * splat(level, ENLARGED as f32) + splat(level, allowance as f32));
+        let open = !is_free.to_bitmask() as u8;
+        if open != 0 {
+            let far = gaps.way.simd_gt(splat(level, MIN_DIVIDED_DISPLACEMENT));
+            let touching = gaps.gap.simd_lt(splat(level, gaps.touching_gap));
+            let (mut gap, far) = ([0.0; LANES], far.to_bitmask() as u8);
+            gaps.gap.store_slice(&mut gap);
+            self.record_open(
+                index,
+                [open, open & far, open & touching.to_bitmask() as u8],
+                &gap,
+            );
+        }
+    }
+
+    #[inline(never)]
+    fn record_open(&mut self, index: usize, [open, far, touching]: [u8; 3], gap: &[f32; LANES]) {
+        let tested = &mut self.tested[index];
+        tested.open |= open;
+        tested.far_moving |= far;
+        for (lane, &gap) in gap.iter().enumerate() {
+            if gap < tested.least_gap && open >> lane & 1 == 1 {
+                (tested.nearest, tested.least_gap) = (lane as u8, gap);
+            }
+        }
+        if touching != 0 {
+            let lane = touching.trailing_zeros() as usize;
+            if self.touching.is_none_or(|known| lane < known.lane) {
+                self.touching = Some(TouchingPair {
+                    pair: tested.pair,
+                    lane,
+                });
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn vector_of_lane<L: Simd>(vectors: Vec3x8<L>, lane: usize) -> rigid_ccd::glam::Vec3 {
+    rigid_ccd::glam::Vec3::new(vectors.x[lane], vectors.y[lane], vectors.z[lane])
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,223 @@
+//! Links against links: by a table of distances, or balls against balls.
+
+use super::error::{ENLARGED, UNIT_ROUNDOFF};
+use super::frames::LoadedFrame;
+use super::obstacles::Obstacle;
+use super::{BallGaps, BallTest, LANES};
+use crate::cell::Cell;
+use crate::cell::ball_model::DistanceTable;
+use ccd_core::fearless_simd::{Simd, f32x8, prelude::*};
+use ccd_core::order::greater;
+use ccd_core::simd::{load, splat};
+use std::f64::consts::TAU;
+
+/// The error of the number of a cell in a table, in units of roundoff: an angle is subtracted, divided by a turn, and
+/// multiplied.
+const CELL_NUMBER_ERROR: f64 = 16.0;
+
+/// Two parts of the robot that are checked against each other.
+#[derive(Clone, Debug)]
+pub(super) struct SelfPair {
+    parts: [usize; 2],
+    /// The nearest common ancestor of both frames.
+    common_frame: usize,
+    /// For both parts, the indices of the bounds of their motion relative to the common frame.
+    pub(super) arms: [usize; 2],
+    table: Option<LaneTable>,
+    /// The half-space of the second part, if it is one.
+    half_space: Option<Obstacle>,
+}
+
+/// A table of distances in f32.
+#[derive(Clone, Debug)]
+struct LaneTable {
+    axes: Vec<LaneAxis>,
+    /// The distances, then one entry of 0 for angles outside the table.
+    distances: Vec<f32>,
+}
+
+/// An axis of a table.
+#[derive(Clone, Copy, Debug)]
+struct LaneAxis {
+    joint: usize,
+    low: f32,
+    cells_per_turn: f32,
+    cell_count: f32,
+    arm_length: f64,
+}
+
+impl SelfPair {
+    pub(super) fn new(
+        cell: &Cell,
+        (parts, common_frame): ([usize; 2], usize),
+        arms: [usize; 2],
+        table: Option<&DistanceTable>,
+    ) -> Self {
+        let second = &cell.parts()[parts[1]];
+        SelfPair {
+            parts,
+            common_frame,
+            arms,
+            table: table.map(LaneTable::new),
+            half_space: second.plane.map(|_| Obstacle::new(second, parts[1])),
+        }
+    }
+}
+
+impl LaneTable {
+    fn new(table: &DistanceTable) -> Self {
+        let axes = table.axes.iter().map(|axis| LaneAxis {
+            joint: axis.joint,
+            low: axis.low as f32,
+            cells_per_turn: (TAU / axis.cell_size) as f32,
+            cell_count: axis.cell_count as f32,
+            arm_length: axis.arm_length,
+        });
+        let mut distances = table.distances.clone();
+        distances.push(0.0);
+        LaneTable {
+            axes: axes.collect(),
+            distances,
+        }
+    }
+
+    /// Returns lower bounds of the distance for eight configurations; 0 outside the table.
+    #[inline(always)]
+    fn lower_bounds<L: Simd>(&self, level: L, positions: &[[f32; LANES]]) -> f32x8<L> {
+        let number = |x: f32| splat(level, x);
+        let outside = number((self.distances.len() - 1) as f32);
+        let (mut index, mut is_inside) = (number(0.0), number(0.0).simd_eq(number(0.0)));
+        for axis in self.axes.iter().rev() {
+            let angle = load(level, &positions[axis.joint]) - number(axis.low);
+            let turns = angle * number((1.0 / TAU) as f32);
+            let cell = (turns - turns.floor()) * number(axis.cells_per_turn);
+            let cell = cell.floor();
+            let count = number(axis.cell_count);
+            is_inside = is_inside & cell.simd_lt(count) & cell.simd_ge(number(0.0));
+            index = index * count + cell;
+        }
+        let mut indices = [0.0; LANES];
+        is_inside.select(index, outside).store_slice(&mut indices);
+        let mut distances = [0.0; LANES];
+        for lane in 0..LANES {
+            let found = self.distances.get(indices[lane] as usize);
+            distances[lane] = found.copied().unwrap_or(0.0);
+        }
+        load(level, &distances)
+    }
+}
+
+impl BallTest<'_> {
+    /// Compares two parts of the robot.
+    #[inline(always)]
+    pub(super) fn compare_robot_pair<L: Simd>(&mut self, level: L, tested: usize, index: usize) {
+        if let Some(table) = &self.self_pairs[index].table {
+            let (gap, way) = (
+                table.lower_bounds(level, &self.positions),
+                self.displacement_in_table(table),
+            );
+            let gaps = BallGaps {
+                gap,
+                way: splat(level, way as f32),
+                touching_gap: f32::NEG_INFINITY,
+            };
+            return self.record(level, tested, gaps, 2.0 * self.pose_rounding);
+        }
+        let pair = &self.self_pairs[index];
+        let ([a, b], arms) = (pair.parts, pair.arms);
+        let common = self.frames[pair.common_frame].load(level);
+        if let Some(half_space) = pair.half_space {
+            return self.compare_half_space(level, tested, (a, arms[0]), &half_space);
+        }
+        let around = [self.balls.around_part(a), self.balls.around_part(b)];
+        let displacement = self.displacement_of_pair(arms);
+        let (gaps, error) = self.ball_gaps(level, around, &common, displacement);
+        let allowance = (self.margin_of(tested) + error) * ENLARGED;
+        let required = gaps.way * splat(level, ENLARGED as f32) + splat(level, allowance as f32);
+        if gaps.gap.simd_gt(required).to_bitmask() as u8 == u8::MAX {
+            return;
+        }
+        for one in self.balls.of_part(a) {
+            for other in self.balls.of_part(b) {
+                let (gaps, error) = self.ball_gaps(level, [one, other], &common, displacement);
+                self.record(level, tested, gaps, error);
+            }
+        }
+    }
+
+    /// Compares two balls, by their velocities relative to a frame. Returns the error of the gaps as well.
+    #[inline(always)]
+    fn ball_gaps<L: Simd>(
+        &self,
+        level: L,
+        [one, other]: [usize; 2],
+        common: &LoadedFrame<L>,
+        displacement: f64,
+    ) -> (BallGaps<L>, f64) {
+        let (ball, other_ball) = (&self.balls.all[one], &self.balls.all[other]);
+        let (center, velocity) = self.placed[one].load(level);
+        let (other_center, other_velocity) = self.placed[other].load(level);
+        let offset = center - other_center;
+        let velocity = velocity - other_velocity - common.angular_velocity.cross(offset);
+        let radii = ball.radius + other_ball.radius;
+        let half_length = splat(level, self.half_length as f32);
+        let error = 16.0 * UNIT_ROUNDOFF * self.longest_arm;
+        let inner = f64::from(ball.inner_radius) + f64::from(other_ball.inner_radius);
+        let touching_gap = inner - f64::from(radii) - error - 2.0 * self.errors.position;
+        let gaps = BallGaps {
+            gap: offset.length() - splat(level, radii),
+            way: velocity.length() * half_length + splat(level, displacement as f32),
+            touching_gap: touching_gap as f32,
+        };
+        (gaps, error)
+    }
+
+    #[inline(always)]
+    fn compare_half_space<L: Simd>(
+        &mut self,
+        level: L,
+        tested: usize,
+        (part, arms): (usize, usize),
+        half_space: &Obstacle,
+    ) {
+        let displacement = self.displacement_beyond_velocity(arms, arms);
+        let half_length = splat(level, self.half_length as f32);
+        for index in self.balls.of_part(part) {
+            let ball = self.balls.all[index];
+            let (center, velocity) = self.placed[index].load(level);
+            let way = velocity.length() * half_length + splat(level, displacement as f32);
+            let (gaps, error) = self.obstacle_gaps(level, (&ball, center), half_space, way);
+            self.record(level, tested, gaps, error);
+        }
+    }
+
+    /// Returns a bound of the relative displacement of two balls in half an interval, without the part that follows
+    /// from their velocities. Velocities and positions have two errors, and the velocity of the common frame a third.
+    #[inline(always)]
+    fn displacement_of_pair(&self, [one, other]: [usize; 2]) -> f64 {
+        let h = self.half_length;
+        let accelerations = [one, other].map(|k| self.motion_bounds[k].acceleration);
+        let displacement = 0.5 * h * h * (accelerations[0] + accelerations[1])
+            + 3.0 * h * self.errors.velocity
+            + 2.0 * self.errors.position;
+        displacement * ENLARGED
+    }
+
+    /// Returns a bound of the displacement in half an interval, by the table's joints and by the error of their angles.
+    #[inline(always)]
+    fn displacement_in_table(&self, table: &LaneTable) -> f64 {
+        let mut displacement = 0.0;
+        for axis in &table.axes {
+            let turn = f64::from(self.rates[axis.joint].abs()) * self.half_length;
+            let angle_error = self.errors.angle
+                + CELL_NUMBER_ERROR * UNIT_ROUNDOFF * greater(TAU, f64::from(axis.low.abs()));
+            displacement += (turn + 2.0 * angle_error) * axis.arm_length;
+        }
+        displacement * ENLARGED
+    }
+
+    #[inline(always)]
+    fn margin_of(&self, tested: usize) -> f64 {
+        self.tested[tested].margin
+    }
+}

@@ -1,0 +1,136 @@
+//! Tests what the ball test proves against distances at sampled configurations.
+
+use super::*;
+use crate::solver::measure::minkowski_support_vertex;
+use crate::solver::placement::Placement;
+use crate::solver::tests::{configuration_between, random_cell, random_configuration};
+use ccd_core::order::lesser;
+use ccd_distance_gjk::{TerminationBounds, bound_distance};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rigid_ccd::glam::DVec3;
+use rigid_ccd::oracle::Frame;
+
+/// Returns an upper bound of the distance of two parts.
+fn distance(cell: &Cell, frames: &[Frame], [a, b]: [usize; 2]) -> f64 {
+    let parts = [a, b].map(|part| &cell.parts()[part]);
+    let frames = parts.map(|part| frames[part.frame]);
+    if let Some(plane) = &parts[1].plane {
+        return plane.lowest_corner_height(parts[0], &frames[0]) - parts[0].radius;
+    }
+    let until = TerminationBounds {
+        sufficient_lower_bound: f64::INFINITY,
+        sufficient_upper_bound: 0.0,
+    };
+    let vertex = |direction: DVec3| minkowski_support_vertex(parts, &frames, direction);
+    bound_distance(vertex, DVec3::X, until).upper - parts[0].radius - parts[1].radius
+}
+
+/// For each pair of parts that is checked, the intervals in which the test leaves it open.
+fn open_intervals(
+    cell: &Cell,
+    test: &BallTest<'_>,
+    pairs: &PartPairs<'_>,
+) -> Vec<([usize; 2], u8)> {
+    let of_robot = pairs
+        .self_pairs()
+        .iter()
+        .map(|pair| [pair.a as usize, pair.b as usize]);
+    let obstacles = cell.robot_part_count()..cell.parts().len();
+    let moving = (0..cell.robot_part_count()).filter(|&part| cell.parts()[part].frame > 0);
+    let with_obstacles = moving.flat_map(|part| obstacles.clone().map(move |other| [part, other]));
+    let open = |parts: [usize; 2]| {
+        let same = test.open_pairs().filter(|tested| {
+            let pair = test.part_pair(pairs, tested.pair);
+            [pair.a as usize, pair.b as usize] == parts
+        });
+        same.fold(0, |lanes, tested| lanes | tested.open)
+    };
+    of_robot
+        .chain(with_obstacles)
+        .map(|parts| (parts, open(parts)))
+        .collect()
+}
+
+#[test]
+fn a_pair_that_is_not_open_stays_apart_and_a_touching_pair_touches() {
+    let mut random = Pcg64::seed_from_u64(31);
+    let (mut free, mut open, mut touching, mut least) = (0, 0, 0, f64::INFINITY);
+    for round in 0..150 {
+        let mut cell = random_cell(&mut random);
+        if round % 5 == 0 {
+            let pose = crate::test_robots::random_pose(&mut random, 2.0);
+            cell.add_plane("plane", pose).unwrap();
+        }
+        let mut placement = Placement::new(&cell);
+        let mut pairs = PartPairs::new(&cell, &placement.displacement_bounds);
+        let margin = [0.0, 0.1][round % 2];
+        pairs.set_margin(margin);
+        let mut test = BallTest::new(&cell, &pairs);
+        let from = random_configuration(&mut random, cell.robot());
+        let to = random_configuration(&mut random, cell.robot());
+        let to = configuration_between(&from, &to, [0.02, 0.2, 1.0, 4.0][round % 4]);
+        let mut path = JointPath::default();
+        path.set_configurations(cell.kinematics(), &[&from, &to]);
+        placement.begin(&cell, &path);
+        let parts = cell.parts();
+        let arm = crate::cell::rounding::largest_arm(cell.kinematics(), parts, path.magnitudes());
+        test.set_path(&path, arm, placement.rounding);
+        assert!(test.set_segment(path.changes(0)));
+        let start = random.random_range(0.0..0.5);
+        let end = start + random.random_range(1e-4..0.5);
+        test.test((&path, 0), [start, end], &pairs, None);
+        if let Some(pair) = test.touching() {
+            touching += 1;
+            let at = start + (end - start) * (pair.lane as f64 + 0.5) / LANES as f64;
+            let both = test.part_pair(&pairs, pair.pair);
+            placement.place_frames(&cell, &path, at);
+            let parts = [both.a as usize, both.b as usize];
+            let found = distance(&cell, &placement.frames, parts);
+            assert!(found <= 1e-9, "{found}");
+            continue;
+        }
+        for (parts, lanes) in open_intervals(&cell, &test, &pairs) {
+            for lane in 0..LANES {
+                if lanes >> lane & 1 == 1 {
+                    open += 1;
+                    continue;
+                }
+                free += 1;
+                for k in 0..=4 {
+                    let fraction = (lane as f64 + 0.25 * f64::from(k)) / LANES as f64;
+                    placement.place_frames(&cell, &path, start + (end - start) * fraction);
+                    let found = distance(&cell, &placement.frames, parts);
+                    assert!(found > margin, "{found} {parts:?}");
+                    least = lesser(least, found - margin);
+                }
+            }
+        }
+    }
+    assert!(
+        free > 2000 && open > 300 && touching > 20,
+        "{free} {open} {touching}"
+    );
+    // The bounds are not so loose that they would hold by chance.
+    assert!(least < 0.02, "{least}");
+}
+
+/// Long links and fast joints have errors that are too large for f32.
+#[test]
+fn what_f32_cannot_resolve_is_refused() {
+    let mut random = Pcg64::seed_from_u64(4);
+    let cell = random_cell(&mut random);
+    let placement = Placement::new(&cell);
+    let pairs = PartPairs::new(&cell, &placement.displacement_bounds);
+    let mut test = BallTest::new(&cell, &pairs);
+    let rates = vec![1.0; cell.kinematics().joints().len()];
+    let mut path = JointPath::default();
+    let zero = vec![0.0; cell.robot().independent_joint_names().count()];
+    path.set_configurations(cell.kinematics(), &[&zero, &zero]);
+    test.set_path(&path, 10.0, 1e-12);
+    assert!(test.set_segment(&rates));
+    test.set_path(&path, 1e6, 1e-12);
+    assert!(!test.set_segment(&rates));
+    test.set_path(&path, 10.0, f64::NAN);
+    assert!(!test.set_segment(&rates));
+}

@@ -1,0 +1,272 @@
+//! Advances along a pair's open interval, from its nearest point in both directions.
+//!
+//! At a point of the path the distance of both parts is measured, with the axis along which they are so far apart. No
+//! corner approaches the other part along the axis faster than some speed `a`, and the second derivative of its height is
+//! at most `M`. So the distance `g` lasts for the time `s` with `a s + M s² / 2 = g`: forwards with the fastest approach,
+//! and backwards with the fastest one in the other direction `[FAST06 §4.2]`.
+
+use super::PathSearch;
+use super::open_intervals::OpenInterval;
+use crate::cell::part::HullPart;
+use crate::kinematics::moving_frame::MovingFrame;
+use crate::path::interval::{PathInterval, StepResult};
+use crate::solver::measure::{initial_direction, minkowski_support_vertex};
+use crate::solver::part_pairs::PartPair;
+use crate::tuning::{MAX_ADVANCES, PAIRS_BETWEEN_CLOCK_READS};
+use ccd_core::order::{greater, lesser};
+use ccd_distance_gjk::{DistanceBounds, TerminationBounds, bound_distance};
+use rigid_ccd::glam::DVec3;
+use std::ops::ControlFlow::{Break, Continue};
+
+/// Shortens steps beyond their rounding errors.
+const ROUNDED_DOWN: f64 = 1.0 - 1e-9;
+
+/// The rounding error of a speed along an axis, as a fraction of the largest speed of any points.
+const SPEED_ERROR: f64 = 1e-12;
+
+/// Both parts of a pair at a point of the path, relative to their common ancestor frame.
+struct PlacedPair<'c> {
+    parts: [&'c HullPart; 2],
+    frames: [MovingFrame; 2],
+}
+
+/// What is known about a pair around a point of the path.
+enum Advance {
+    /// The pair stays farther apart than its margin over the whole interval.
+    Free,
+    /// The parts are within margin + tolerance.
+    Near,
+    /// The pair is free for this long before and after the point.
+    Steps { back: f64, forth: f64 },
+}
+
+impl PathSearch<'_> {
+    /// Searches the interval of a pair. What many steps do not decide is left to the search by halving.
+    pub(super) fn search_open_interval(&mut self, open: &OpenInterval) -> StepResult {
+        let mut pair = self.ball_test.part_pair(&self.pairs, open.pair);
+        let acceleration = self.ball_test.acceleration_bound(open.pair);
+        self.set_joints_between(&pair);
+        let mut left = std::mem::take(&mut self.unsearched);
+        left.clear();
+        left.push([open.from, open.to]);
+        let mut at = open.nearest;
+        let (mut step, mut count) = (Continue(()), 0);
+        while let Some([from, to]) = left.pop() {
+            let to = lesser(to, self.result.end);
+            // Written so that NaN is searched.
+            if from > to || from >= self.result.end {
+                continue;
+            }
+            count += 1;
+            let whole = PathInterval {
+                from,
+                to,
+                halvings: open.halvings,
+            };
+            if count % PAIRS_BETWEEN_CLOCK_READS == 1 && self.check_limit(&whole).is_break() {
+                step = Break(());
+                break;
+            }
+            if count > MAX_ADVANCES {
+                left.push([from, to]);
+                break;
+            }
+            // An interval that ends with a contact is searched from its start.
+            if !(from <= at && at <= to) {
+                at = if to == self.result.end {
+                    from
+                } else {
+                    0.5 * (from + to)
+                };
+            }
+            self.stop_condition.add_work(1);
+            match self.advance(&mut pair, open, [from, at, to], acceleration) {
+                Advance::Free => {}
+                Advance::Near if pair.is_convex(self.cell.parts()) => {
+                    if self.record_contact(&pair, at, 0.0).is_break() {
+                        step = Break(());
+                        break;
+                    }
+                    if from < at {
+                        left.push([from, at]);
+                    }
+                }
+                Advance::Near => {
+                    left.push([from, to]);
+                    break;
+                }
+                Advance::Steps { back, forth } => {
+                    let later = (at + forth).next_down();
+                    let earlier = (at - back).next_up();
+                    // Written so that NaN is searched again.
+                    if !(later >= to) {
+                        left.push([greater(later, from), to]);
+                    }
+                    if !(earlier <= from) {
+                        left.push([from, lesser(earlier, to)]);
+                    }
+                }
+            }
+            at = f64::NAN;
+        }
+        let result = match step {
+            Break(()) => Ok(Break(())),
+            Continue(()) => self.search_rest(&pair, open, &left),
+        };
+        self.unsearched = left;
+        result
+    }
+
+    /// Searches by halving what is left of a pair's interval, the earliest first.
+    fn search_rest(
+        &mut self,
+        pair: &PartPair,
+        open: &OpenInterval,
+        left: &[[f64; 2]],
+    ) -> StepResult {
+        for &[from, to] in left.iter().rev() {
+            if !(from < to) || from >= self.result.end {
+                continue;
+            }
+            self.candidates.clear();
+            self.candidates.push(*pair);
+            let interval = PathInterval {
+                from,
+                to,
+                halvings: open.halvings,
+            };
+            if self.search(interval, Some(0..1))?.is_break() {
+                return Ok(Break(()));
+            }
+        }
+        Ok(Continue(()))
+    }
+
+    /// Finds the joints between the common ancestor frame and both parts of a pair, parents first.
+    fn set_joints_between(&mut self, pair: &PartPair) {
+        let kinematics = self.cell.kinematics();
+        let frames = [pair.a, pair.b].map(|part| self.cell.parts()[part as usize].frame);
+        let common = kinematics.common_frame(frames);
+        for (joints, frame) in self.joints_between.iter_mut().zip(frames) {
+            joints.clear();
+            joints.extend(kinematics.joints_between([frame, common]));
+            joints.reverse();
+        }
+    }
+
+    /// Measures a pair at the point `at` of an interval.
+    fn advance(
+        &mut self,
+        pair: &mut PartPair,
+        open: &OpenInterval,
+        [from, at, to]: [f64; 3],
+        acceleration: f64,
+    ) -> Advance {
+        let (path, segment) = (&self.path, open.segment);
+        path.interpolate_in_segment(segment, at, &mut self.positions);
+        let rates = path.changes(segment);
+        let moving_frame = |joints: &Vec<usize>| {
+            let kinematics = self.cell.kinematics();
+            kinematics.moving_frame(joints, &self.positions, rates)
+        };
+        let placed = PlacedPair {
+            parts: [pair.a, pair.b].map(|part| &self.cell.parts()[part as usize]),
+            frames: self.joints_between.each_ref().map(moving_frame),
+        };
+        let rounding = 2.0 * self.placement.rounding;
+        let radii = placed.parts[0].radius + placed.parts[1].radius;
+        let half_length = greater(at - from, to - at);
+        let speed = placed.speed_bound();
+        let displacement =
+            half_length * (speed + 0.5 * half_length * acceleration) * (2.0 - ROUNDED_DOWN);
+        let until = TerminationBounds {
+            sufficient_lower_bound: displacement + pair.margin + rounding + radii,
+            sufficient_upper_bound: pair.margin + self.tolerance - rounding + radii,
+        };
+        let bounds = placed.distance_bounds(pair.axis, until);
+        if bounds.lower > until.sufficient_lower_bound {
+            return Advance::Free;
+        }
+        pair.axis = bounds.axis;
+        pair.distance_to_proof_ratio =
+            (bounds.lower - radii) / (until.sufficient_lower_bound - radii);
+        if bounds.upper <= until.sufficient_upper_bound {
+            return Advance::Near;
+        }
+        let gap = bounds.lower - radii - pair.margin - rounding;
+        // Written so that NaN gives no steps.
+        if !(gap > 0.0) {
+            return Advance::Steps {
+                back: 0.0,
+                forth: 0.0,
+            };
+        }
+        let axis = bounds.axis.normalize();
+        let length = |sign: f64| {
+            let approach = placed.approach_speed(axis, sign) + SPEED_ERROR * speed;
+            step_length(gap, approach, acceleration)
+        };
+        Advance::Steps {
+            back: length(-1.0),
+            forth: length(1.0),
+        }
+    }
+}
+
+impl PlacedPair<'_> {
+    /// Returns an upper bound of the relative speed of any points of both parts.
+    #[inline(always)]
+    fn speed_bound(&self) -> f64 {
+        let speed = |k: usize| {
+            self.frames[k].speed_of_ball(self.parts[k].center, self.parts[k].ball_radius)
+        };
+        speed(0) + speed(1)
+    }
+
+    /// Bounds the distance of the corners of both parts.
+    #[inline(always)]
+    fn distance_bounds(&self, first_axis: DVec3, until: TerminationBounds) -> DistanceBounds {
+        let ([a, b], frames) = (self.parts, self.frames.map(|moving| moving.frame));
+        if let Some(plane) = &b.plane {
+            return plane.distance_bounds(a, &frames[0]);
+        }
+        let vertex = |direction: DVec3| minkowski_support_vertex([a, b], &frames, direction);
+        let first_axis = if first_axis == DVec3::ZERO {
+            let centers = [
+                frames[0].transform_point(a.center),
+                frames[1].transform_point(b.center),
+            ];
+            initial_direction(b, centers)
+        } else {
+            first_axis
+        };
+        bound_distance(vertex, first_axis, until)
+    }
+
+    /// Returns the fastest approach of two points of both parts along a unit vector from the first part to the second:
+    /// forwards in time if `sign` is 1, backwards if it is -1.
+    #[inline(always)]
+    fn approach_speed(&self, axis: DVec3, sign: f64) -> f64 {
+        let [a, b] = self.parts;
+        let corner = |part: &HullPart, direction: DVec3| part.extremal_corner(direction).1;
+        let of_first =
+            self.frames[0].largest_speed_along(sign * axis, |direction| corner(a, direction));
+        let of_second =
+            self.frames[1].largest_speed_along(-sign * axis, |direction| corner(b, direction));
+        of_first + of_second
+    }
+}
+
+/// Returns a lower bound of the time for which a gap lasts: of the positive root of `speed s + acceleration s² / 2 = gap`.
+#[inline(always)]
+fn step_length(gap: f64, speed: f64, acceleration: f64) -> f64 {
+    let root = (speed * speed + 2.0 * acceleration * gap).sqrt();
+    let step = if speed > 0.0 {
+        2.0 * gap / (speed + root)
+    } else if acceleration > 0.0 {
+        (root - speed) / acceleration
+    } else {
+        f64::INFINITY
+    };
+    step * ROUNDED_DOWN
+}
