@@ -96,7 +96,7 @@ pub(crate) const TRIAL_BALL_STEPS: u32 = 8;
 
 /// The largest number of cells of all tables of distances together, and the distance beyond which tables are not
 /// accurate, in metres.
-pub(crate) const MAX_TABLE_CELLS: usize = 1 << 16;
+pub(crate) const MAX_TABLE_CELLS: usize = 1 << 15;
 pub(crate) const MAX_TABLE_DISTANCE: f64 = 0.5;
 
 /// The displacement of a ball, in metres, from which an interval that it leaves open is divided again, and how often.
@@ -111,3 +111,7 @@ pub(crate) const MAX_ADVANCES: usize = 48;
 
 /// How often a contact may be found in the same intervals before the search by halving looks for an earlier one.
 pub(crate) const MAX_TESTS_BEFORE_CONTACT: u32 = 2;
+
+/// Distances in tables, and distances from which steps along an open interval begin, are measured to within this fraction.
+pub(crate) const TABLE_ACCURACY: f64 = 0.9;
+pub(crate) const ADVANCE_ACCURACY: f64 = 0.9;

@@ -24,10 +24,19 @@ pub struct DistanceBounds {
     pub axis: DVec3,
 }
 
-/// Bounds the distance of two convex sets by GJK `[GJK88]`, and ends as soon as one of the required bounds is reached.
+impl TerminationBounds {
+    /// Returns whether the search ends with these bounds.
+    #[inline(always)]
+    pub fn are_met_by(&self, bounds: &DistanceBounds) -> bool {
+        bounds.lower > self.sufficient_lower_bound || bounds.upper <= self.sufficient_upper_bound
+    }
+}
+
+/// Bounds the distance of two convex sets by GJK `[GJK88]`, and ends as soon as the bounds are good enough.
 ///
 /// The function `support` returns the vertex `b − a` of the Minkowski difference with the least height along a direction
-/// of any length. The first axis is tried first; it decides alone if the sets are far enough apart along it.
+/// of any length. The first axis is tried first; it decides alone if the sets are far enough apart along it. The search
+/// ends when `is_enough` returns true, see [`TerminationBounds::are_met_by`].
 ///
 /// # Guarantee
 /// Both bounds hold up to the rounding of the vertices that `support` returns and of their heights, whatever the first
@@ -43,14 +52,14 @@ pub struct DistanceBounds {
 ///     Vertex { point: ends[b as usize], a: 0, b }
 /// };
 /// let required = TerminationBounds { sufficient_lower_bound: 0.5, sufficient_upper_bound: 0.0 };
-/// let bounds = bound_distance(support, DVec3::X, required);
+/// let bounds = bound_distance(support, DVec3::X, |bounds| required.are_met_by(bounds));
 /// assert_eq!((bounds.lower, bounds.axis), (1.0, DVec3::X));
 /// ```
 #[inline(always)]
 pub fn bound_distance(
     support: impl Fn(DVec3) -> Vertex,
     first_axis: DVec3,
-    required: TerminationBounds,
+    is_enough: impl Fn(&DistanceBounds) -> bool,
 ) -> DistanceBounds {
     let mut bounds = DistanceBounds {
         lower: f64::NEG_INFINITY,
@@ -64,7 +73,7 @@ pub fn bound_distance(
         if gap > bounds.lower {
             (bounds.lower, bounds.axis) = (gap, axis);
         }
-        if bounds.lower > required.sufficient_lower_bound || !simplex.push(vertex) {
+        if is_enough(&bounds) || !simplex.push(vertex) {
             break;
         }
         let Some(foot) = simplex.foot() else { break };
@@ -78,7 +87,7 @@ pub fn bound_distance(
             break;
         }
         bounds.upper = distance;
-        if bounds.upper <= required.sufficient_upper_bound {
+        if is_enough(&bounds) {
             break;
         }
         (simplex, _) = simplex.without_zero_weights(&foot);

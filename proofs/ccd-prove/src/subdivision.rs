@@ -373,6 +373,6 @@ fn separating_axis_at_middle(task: &Task<'_>) -> (DVec3, f64) {
     } else {
         task.axis
     };
-    let closest = bound_distance(support, initial_axis, bounds);
+    let closest = bound_distance(support, initial_axis, |found| bounds.are_met_by(found));
     (closest.axis.normalize_or_zero(), closest.lower)
 }

@@ -395,7 +395,7 @@ impl PlacedParts<'_> {
         };
         let initial_axis = initial_direction(self.parts[1], self.centers);
         let vertex = |direction| minkowski_support_vertex(self.parts, &self.frames, direction);
-        let bounds = bound_distance(vertex, initial_axis, until);
+        let bounds = bound_distance(vertex, initial_axis, |bounds| until.are_met_by(bounds));
         ([bounds.lower - radii, bounds.upper - radii], bounds.axis)
     }
 }

@@ -71,7 +71,8 @@ pub(crate) fn measure(
             } else {
                 initial_direction(b, centers)
             },
-            until,
+            #[inline(always)]
+            |bounds| until.are_met_by(bounds),
         ),
     };
     if bounds.lower > until.sufficient_lower_bound {

@@ -102,7 +102,7 @@ pub(crate) fn are_convex_parts_nearer(
             sufficient_lower_bound: distance,
             sufficient_upper_bound: 0.5 * distance,
         };
-        bound_distance(vertex, axis, until).upper < distance
+        bound_distance(vertex, axis, |bounds| until.are_met_by(bounds)).upper < distance
     } else {
         contains_ball(|direction| vertex(direction).point, -distance)
     }

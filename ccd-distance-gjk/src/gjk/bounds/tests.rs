@@ -50,7 +50,7 @@ fn bounds_contain_the_distance_and_reach_what_is_required() {
             sufficient_upper_bound: lower * random.random_range(0.0..1.0),
         };
         let first = DVec3::new(1.0, random.random_range(-1.0..1.0), 0.0);
-        let found = bound_distance(support, first, required);
+        let found = bound_distance(support, first, |bounds| required.are_met_by(bounds));
         assert!(
             found.lower <= distance + 1e-12 && found.upper >= distance - 1e-12,
             "{found:?} {distance}"
@@ -84,7 +84,7 @@ fn an_axis_without_a_direction_gives_bounds_that_hold() {
             sufficient_lower_bound: 0.5,
             sufficient_upper_bound: 0.0,
         };
-        let found = bound_distance(support, axis, required);
+        let found = bound_distance(support, axis, |bounds| required.are_met_by(bounds));
         assert!(
             !(found.lower > 1.0) && found.upper >= 1.0,
             "{axis}: {found:?}"

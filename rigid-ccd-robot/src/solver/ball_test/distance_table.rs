@@ -11,9 +11,9 @@ use crate::kinematics::Kinematics;
 use crate::kinematics::joint_arms::JointArms;
 use crate::solver::measure::minkowski_support_vertex;
 use crate::solver::part_pairs::PartPair;
-use crate::tuning::{MAX_TABLE_CELLS, MAX_TABLE_DISTANCE};
+use crate::tuning::{MAX_TABLE_CELLS, MAX_TABLE_DISTANCE, TABLE_ACCURACY};
 use ccd_core::order::{greater, lesser};
-use ccd_distance_gjk::{TerminationBounds, bound_distance};
+use ccd_distance_gjk::bound_distance;
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::oracle::Frame;
 use std::f64::consts::TAU;
@@ -124,11 +124,10 @@ impl<'c> JointedParts<'c> {
             *first_axis = centers[1] - centers[0];
         }
         let radii = a.radius + b.radius;
-        let until = TerminationBounds {
-            sufficient_lower_bound: MAX_TABLE_DISTANCE + radii,
-            sufficient_upper_bound: 0.0,
-        };
-        let bounds = bound_distance(vertex, *first_axis, until);
+        let bounds = bound_distance(vertex, *first_axis, |bounds| {
+            let gap = bounds.lower - radii;
+            gap > MAX_TABLE_DISTANCE || gap > TABLE_ACCURACY * (bounds.upper - radii)
+        });
         *first_axis = bounds.axis;
         bounds.lower - radii
     }

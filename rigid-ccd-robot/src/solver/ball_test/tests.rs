@@ -5,7 +5,7 @@ use crate::solver::measure::minkowski_support_vertex;
 use crate::solver::placement::Placement;
 use crate::solver::tests::{configuration_between, random_cell, random_configuration};
 use ccd_core::order::lesser;
-use ccd_distance_gjk::{TerminationBounds, bound_distance};
+use ccd_distance_gjk::bound_distance;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigid_ccd::glam::DVec3;
@@ -18,12 +18,8 @@ fn distance(cell: &Cell, frames: &[Frame], [a, b]: [usize; 2]) -> f64 {
     if let Some(plane) = &parts[1].plane {
         return plane.lowest_corner_height(parts[0], &frames[0]) - parts[0].radius;
     }
-    let until = TerminationBounds {
-        sufficient_lower_bound: f64::INFINITY,
-        sufficient_upper_bound: 0.0,
-    };
     let vertex = |direction: DVec3| minkowski_support_vertex(parts, &frames, direction);
-    bound_distance(vertex, DVec3::X, until).upper - parts[0].radius - parts[1].radius
+    bound_distance(vertex, DVec3::X, |_| false).upper - parts[0].radius - parts[1].radius
 }
 
 /// For each pair of parts that is checked, the intervals in which the test leaves it open.

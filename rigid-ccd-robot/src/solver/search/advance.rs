@@ -12,8 +12,10 @@ use crate::kinematics::moving_frame::MovingFrame;
 use crate::path::interval::{PathInterval, StepResult};
 use crate::solver::measure::{initial_direction, minkowski_support_vertex};
 use crate::solver::part_pairs::PartPair;
-use crate::tuning::{MAX_ADVANCES, PAIRS_BETWEEN_CLOCK_READS};
+use crate::tuning::{ADVANCE_ACCURACY, MAX_ADVANCES, PAIRS_BETWEEN_CLOCK_READS};
 use ccd_core::order::{greater, lesser};
+use ccd_core::schedule::VectorInstructions;
+use ccd_core::vectorize;
 use ccd_distance_gjk::{DistanceBounds, TerminationBounds, bound_distance};
 use rigid_ccd::glam::DVec3;
 use std::ops::ControlFlow::{Break, Continue};
@@ -80,7 +82,9 @@ impl PathSearch<'_> {
                 };
             }
             self.stop_condition.add_work(1);
-            match self.advance(&mut pair, open, [from, at, to], acceleration) {
+            let simd_level = VectorInstructions::Best.simd_level();
+            let advance = vectorize!(simd_level, _token => self.advance(&mut pair, open, [from, at, to], acceleration));
+            match advance {
                 Advance::Free => {}
                 Advance::Near if pair.is_convex(self.cell.parts()) => {
                     if self.record_contact(&pair, at, 0.0).is_break() {
@@ -155,6 +159,7 @@ impl PathSearch<'_> {
     }
 
     /// Measures a pair at the point `at` of an interval.
+    #[inline(always)]
     fn advance(
         &mut self,
         pair: &mut PartPair,
@@ -165,13 +170,13 @@ impl PathSearch<'_> {
         let (path, segment) = (&self.path, open.segment);
         path.interpolate_in_segment(segment, at, &mut self.positions);
         let rates = path.changes(segment);
-        let moving_frame = |joints: &Vec<usize>| {
-            let kinematics = self.cell.kinematics();
-            kinematics.moving_frame(joints, &self.positions, rates)
-        };
+        let (kinematics, [joints_a, joints_b]) = (self.cell.kinematics(), &self.joints_between);
         let placed = PlacedPair {
             parts: [pair.a, pair.b].map(|part| &self.cell.parts()[part as usize]),
-            frames: self.joints_between.each_ref().map(moving_frame),
+            frames: [
+                kinematics.moving_frame(joints_a, &self.positions, rates),
+                kinematics.moving_frame(joints_b, &self.positions, rates),
+            ],
         };
         let rounding = 2.0 * self.placement.rounding;
         let radii = placed.parts[0].radius + placed.parts[1].radius;
@@ -183,7 +188,15 @@ impl PathSearch<'_> {
             sufficient_lower_bound: displacement + pair.margin + rounding + radii,
             sufficient_upper_bound: pair.margin + self.tolerance - rounding + radii,
         };
-        let bounds = placed.distance_bounds(pair.axis, until);
+        let bounds = placed.distance_bounds(
+            pair.axis,
+            #[inline(always)]
+            |bounds: &DistanceBounds| {
+                let gap = bounds.lower - radii - pair.margin;
+                until.are_met_by(bounds)
+                    || gap > ADVANCE_ACCURACY * (bounds.upper - radii - pair.margin)
+            },
+        );
         if bounds.lower > until.sufficient_lower_bound {
             return Advance::Free;
         }
@@ -202,13 +215,10 @@ impl PathSearch<'_> {
             };
         }
         let axis = bounds.axis.normalize();
-        let length = |sign: f64| {
-            let approach = placed.approach_speed(axis, sign) + SPEED_ERROR * speed;
-            step_length(gap, approach, acceleration)
-        };
+        let error = SPEED_ERROR * speed;
         Advance::Steps {
-            back: length(-1.0),
-            forth: length(1.0),
+            back: step_length(gap, placed.approach_speed(axis, -1.0) + error, acceleration),
+            forth: step_length(gap, placed.approach_speed(axis, 1.0) + error, acceleration),
         }
     }
 }
@@ -217,20 +227,22 @@ impl PlacedPair<'_> {
     /// Returns an upper bound of the relative speed of any points of both parts.
     #[inline(always)]
     fn speed_bound(&self) -> f64 {
-        let speed = |k: usize| {
-            self.frames[k].speed_of_ball(self.parts[k].center, self.parts[k].ball_radius)
-        };
-        speed(0) + speed(1)
+        let ([a, b], [frame_a, frame_b]) = (self.parts, &self.frames);
+        frame_a.speed_of_ball(a.center, a.ball_radius)
+            + frame_b.speed_of_ball(b.center, b.ball_radius)
     }
 
     /// Bounds the distance of the corners of both parts.
     #[inline(always)]
-    fn distance_bounds(&self, first_axis: DVec3, until: TerminationBounds) -> DistanceBounds {
-        let ([a, b], frames) = (self.parts, self.frames.map(|moving| moving.frame));
+    fn distance_bounds(
+        &self,
+        first_axis: DVec3,
+        is_enough: impl Fn(&DistanceBounds) -> bool,
+    ) -> DistanceBounds {
+        let ([a, b], frames) = (self.parts, [self.frames[0].frame, self.frames[1].frame]);
         if let Some(plane) = &b.plane {
             return plane.distance_bounds(a, &frames[0]);
         }
-        let vertex = |direction: DVec3| minkowski_support_vertex([a, b], &frames, direction);
         let first_axis = if first_axis == DVec3::ZERO {
             let centers = [
                 frames[0].transform_point(a.center),
@@ -240,7 +252,12 @@ impl PlacedPair<'_> {
         } else {
             first_axis
         };
-        bound_distance(vertex, first_axis, until)
+        bound_distance(
+            #[inline(always)]
+            |direction: DVec3| minkowski_support_vertex([a, b], &frames, direction),
+            first_axis,
+            is_enough,
+        )
     }
 
     /// Returns the fastest approach of two points of both parts along a unit vector from the first part to the second:
@@ -248,11 +265,16 @@ impl PlacedPair<'_> {
     #[inline(always)]
     fn approach_speed(&self, axis: DVec3, sign: f64) -> f64 {
         let [a, b] = self.parts;
-        let corner = |part: &HullPart, direction: DVec3| part.extremal_corner(direction).1;
-        let of_first =
-            self.frames[0].largest_speed_along(sign * axis, |direction| corner(a, direction));
-        let of_second =
-            self.frames[1].largest_speed_along(-sign * axis, |direction| corner(b, direction));
+        let of_first = self.frames[0].largest_speed_along(
+            sign * axis,
+            #[inline(always)]
+            |direction| a.extremal_corner(direction).1,
+        );
+        let of_second = self.frames[1].largest_speed_along(
+            -sign * axis,
+            #[inline(always)]
+            |direction| b.extremal_corner(direction).1,
+        );
         of_first + of_second
     }
 }
