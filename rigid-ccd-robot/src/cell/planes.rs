@@ -5,7 +5,7 @@
 
 use super::Cell;
 use super::part::PlacedBody;
-use crate::cell::rounding::largest_arm;
+use crate::cell::rounding::{CoordinateBounds, largest_arm};
 use crate::error::{PathError, RobotError};
 use crate::kinematics::magnitude::Magnitude;
 use ccd_core::limits::MAX_COORDINATE;
@@ -109,7 +109,8 @@ impl Cell {
 
     /// Returns an upper bound of the distance from the base of any point of a moving body.
     fn max_reach(&self, magnitudes: impl Iterator<Item = Magnitude>) -> f64 {
-        largest_arm(&self.kinematics, &self.parts, magnitudes)
+        let coordinates = CoordinateBounds::of_parts(&self.parts);
+        largest_arm(&self.kinematics, coordinates, magnitudes)
     }
 }
 

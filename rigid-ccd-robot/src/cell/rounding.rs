@@ -34,19 +34,41 @@ pub(crate) struct PoseRounding {
     pub(crate) of_directions: f64,
 }
 
+/// Upper bounds of the numbers from which the corners of parts were computed, see [`HullPart::coordinate_bound`].
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct CoordinateBounds {
+    of_moving_parts: f64,
+    of_static_parts: f64,
+}
+
+impl CoordinateBounds {
+    pub(crate) fn of_parts(parts: &[HullPart]) -> Self {
+        let mut bounds = CoordinateBounds::default();
+        for part in parts {
+            let bound = if part.frame > 0 {
+                &mut bounds.of_moving_parts
+            } else {
+                &mut bounds.of_static_parts
+            };
+            *bound = greater(*bound, part.coordinate_bound);
+        }
+        bounds
+    }
+}
+
 /// Bounds the error of any part's point that is computed through the link frames along a path.
 pub(crate) fn point_error_bound(
     kinematics: &Kinematics,
-    parts: &[HullPart],
+    coordinates: CoordinateBounds,
     magnitudes: impl Iterator<Item = Magnitude> + Clone,
 ) -> f64 {
-    pose_rounding(kinematics, parts, magnitudes).of_points
+    pose_rounding(kinematics, coordinates, magnitudes).of_points
 }
 
 /// Bounds the errors of points and of directions that are computed through the link frames.
 pub(crate) fn pose_rounding(
     kinematics: &Kinematics,
-    parts: &[HullPart],
+    coordinates: CoordinateBounds,
     magnitudes: impl Iterator<Item = Magnitude> + Clone,
 ) -> PoseRounding {
     let joints = kinematics.joints();
@@ -61,12 +83,10 @@ pub(crate) fn pose_rounding(
     let rotation = ROTATION_ERROR_PER_JOINT * (kinematics.total_joint_count + 2) as f64
         + POSITION_ERROR_ULPS * angles;
     let error_of_moving =
-        (rotation + POSITION_ERROR_ULPS) * largest_arm(kinematics, parts, magnitudes);
+        (rotation + POSITION_ERROR_ULPS) * largest_arm(kinematics, coordinates, magnitudes);
     // No joint rotates a static part.
-    let static_parts = parts.iter().filter(|part| part.frame == 0);
-    let coordinates = static_parts.map(|part| part.coordinate_bound);
     let error_of_static =
-        (2.0 * ROTATION_ERROR_PER_JOINT + POSITION_ERROR_ULPS) * coordinates.fold(0.0, greater);
+        (2.0 * ROTATION_ERROR_PER_JOINT + POSITION_ERROR_ULPS) * coordinates.of_static_parts;
     PoseRounding {
         of_points: U * greater(error_of_moving, error_of_static)
             + U * POSITION_ERROR_ULPS * translations,
@@ -78,7 +98,7 @@ pub(crate) fn pose_rounding(
 /// joints without a magnitude are assumed to be at 0.
 pub(crate) fn largest_arm(
     kinematics: &Kinematics,
-    parts: &[HullPart],
+    coordinates: CoordinateBounds,
     magnitudes: impl Iterator<Item = Magnitude>,
 ) -> f64 {
     let joints = kinematics.joints().iter().zip(magnitudes);
@@ -86,9 +106,5 @@ pub(crate) fn largest_arm(
     let chain_length = prismatic.fold(kinematics.arm_length_sum, |length, (_, magnitude)| {
         length + magnitude.position
     });
-    let moving_parts = parts.iter().filter(|part| part.frame > 0);
-    chain_length
-        + moving_parts
-            .map(|part| part.coordinate_bound)
-            .fold(0.0, greater)
+    chain_length + coordinates.of_moving_parts
 }

@@ -2,7 +2,7 @@
 
 use super::joint_box::JointBox;
 use crate::cell::Cell;
-use crate::cell::rounding::{PoseRounding, pose_rounding};
+use crate::cell::rounding::{CoordinateBounds, PoseRounding, pose_rounding};
 use ccd_core::order::greater;
 use std::f64::consts::PI;
 
@@ -73,7 +73,11 @@ impl JointsBetween {
         let magnitudes: Vec<_> = kinematics.magnitudes(&largest_positions).collect();
         let magnitudes = magnitudes.iter().copied();
         Some(JointsBetween {
-            rounding: pose_rounding(kinematics, cell.parts(), magnitudes),
+            rounding: pose_rounding(
+                kinematics,
+                CoordinateBounds::of_parts(cell.parts()),
+                magnitudes,
+            ),
             common_frame: kinematics
                 .common_frame(links.map(|link| kinematics.link_frame_and_pose(link).0)),
             default_configuration: robot.configuration_nearest_zero(),

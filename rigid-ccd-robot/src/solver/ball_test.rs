@@ -22,6 +22,7 @@ mod obstacles;
 mod placed_balls;
 mod self_pairs;
 mod sine;
+mod tested_pair;
 
 use super::part_pairs::{PartPair, PartPairs};
 use crate::cell::Cell;
@@ -29,19 +30,21 @@ use crate::cell::ball_model::BallModel;
 use crate::cell::cover::Covers;
 use crate::kinematics::joint_arms::{JointArms, MotionBounds};
 use crate::path::joint_path::JointPath;
-use crate::tuning::{MAX_BALL_TEST_ERROR, MIN_DIVIDED_DISPLACEMENT};
-use ccd_core::fearless_simd::{Simd, f32x8, prelude::*};
+use crate::tuning::MAX_BALL_TEST_ERROR;
+use ccd_core::fearless_simd::{Simd, f32x8};
 use ccd_core::order::greater;
 use ccd_core::schedule::VectorInstructions;
 use ccd_core::simd::{Vec3x8, splat};
 use ccd_core::vectorize;
 use error::{ENLARGED, ErrorSources, LaneErrors};
 use frames::{LaneFrame, LaneJoint, place_frames};
-use obstacles::{Obstacle, Obstacles};
+use obstacles::Obstacles;
 use placed_balls::{LaneBall, LaneBalls, PlacedBall};
 use self_pairs::SelfPair;
 use sine::MAX_ANGLE;
 use std::f64::consts::TAU;
+use tested_pair::BallGaps;
+pub(crate) use tested_pair::{BallPair, TestedPair, TouchingPair};
 
 /// The number of intervals that are tested at once.
 pub(crate) const LANES: usize = 8;
@@ -61,6 +64,8 @@ pub(crate) struct BallTest<'c> {
     longest_arm: f64,
     pose_rounding: f64,
     errors: LaneErrors,
+    /// For each obstacle the errors of gaps, and of distances that prove a contact.
+    obstacle_errors: Vec<[f64; 2]>,
     rates: Vec<f32>,
     motion_bounds: Vec<MotionBounds>,
     // For the current intervals:
@@ -73,61 +78,6 @@ pub(crate) struct BallTest<'c> {
     /// A pair that is proven to touch at the midpoint of an interval.
     touching: Option<TouchingPair>,
     near: Vec<u32>,
-}
-
-/// A pair of parts that the ball test compares.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum BallPair {
-    /// A part of the robot, and the index of an obstacle's part among those of all obstacles.
-    Obstacle { part: u32, obstacle: u32 },
-    /// The index of a pair of the robot's own parts.
-    OfRobot(u32),
-}
-
-/// A pair, and what the test has found out about it in eight intervals.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct TestedPair {
-    pub(crate) pair: BallPair,
-    /// The distance at which the pair counts as touching.
-    margin: f64,
-    /// The intervals in which the pair may touch, as bits.
-    pub(crate) open: u8,
-    /// The open intervals in which a ball gets far.
-    pub(crate) far_moving: u8,
-    /// The interval with the least lower bound of the distance at its midpoint, and that bound.
-    pub(crate) nearest: u8,
-    pub(crate) least_gap: f32,
-}
-
-/// A pair that touches at the midpoint of an interval.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct TouchingPair {
-    pub(crate) pair: BallPair,
-    pub(crate) lane: usize,
-}
-
-/// The result of comparing one ball in eight intervals.
-#[derive(Clone, Copy)]
-struct BallGaps<L: Simd> {
-    /// The gap between the ball and the other shape at the midpoints.
-    gap: f32x8<L>,
-    /// How far the ball gets in the interval.
-    way: f32x8<L>,
-    /// The gap at which the smaller ball inside the link is proven to touch.
-    touching_gap: f32,
-}
-
-impl TestedPair {
-    fn new(pair: BallPair, margin: f64) -> Self {
-        TestedPair {
-            pair,
-            margin,
-            open: 0,
-            far_moving: 0,
-            nearest: 0,
-            least_gap: f32::INFINITY,
-        }
-    }
 }
 
 impl<'c> BallTest<'c> {
@@ -172,6 +122,7 @@ impl<'c> BallTest<'c> {
             longest_arm: 0.0,
             pose_rounding: 0.0,
             errors: LaneErrors::default(),
+            obstacle_errors: Vec::new(),
             rates: vec![0.0; joints.len()],
             motion_bounds: vec![MotionBounds::default(); arms.len()],
             arms,
@@ -215,6 +166,13 @@ impl<'c> BallTest<'c> {
         if !(is_slow && self.errors.position < MAX_BALL_TEST_ERROR * self.balls.largest_radius) {
             return false;
         }
+        let (reach, position_error) = (self.longest_arm, self.errors.position);
+        let errors = self.obstacles.all.iter().map(|obstacle| {
+            let error = obstacle.error(reach);
+            [error, obstacle.touching_error(error + position_error)]
+        });
+        self.obstacle_errors.clear();
+        self.obstacle_errors.extend(errors);
         for (rate, change) in self.rates.iter_mut().zip(changes) {
             *rate = *change as f32;
         }
@@ -299,8 +257,7 @@ impl<'c> BallTest<'c> {
         self.balls.place(level, &self.frames, &mut self.placed);
         match among {
             Some(among) => {
-                let fresh = |pair: &TestedPair| TestedPair::new(pair.pair, pair.margin);
-                self.tested.extend(among.iter().map(fresh));
+                self.tested.extend(among.iter().map(TestedPair::untested));
             }
             None => self.append_all_pairs(level, pairs),
         }
@@ -308,10 +265,10 @@ impl<'c> BallTest<'c> {
         while first < self.tested.len() && self.touching.is_none() {
             match self.tested[first].pair {
                 BallPair::Obstacle { part, .. } => {
-                    first = self.compare_obstacles(level, part, first)
+                    first = self.compare_obstacles(level, part, first);
                 }
                 BallPair::OfRobot(index) => {
-                    self.compare_robot_pair(level, first, index as usize);
+                    self.compare_self_pair(level, first, index as usize);
                     first += 1;
                 }
             }
@@ -346,7 +303,7 @@ impl<'c> BallTest<'c> {
             let Some(ball) = self.balls.ball_around_frame[frame] else {
                 continue;
             };
-            let displacement = self.displacement_beyond_velocity(frame, frame);
+            let displacement = self.displacement_beyond_velocity(frame);
             let half_length = splat(level, self.half_length as f32);
             let [centers, velocities] = self.frames[frame].load(level).point(level, ball.center);
             let middle = 0.5 * (vector_of_lane(centers, 3) + vector_of_lane(centers, 4));
@@ -370,15 +327,19 @@ impl<'c> BallTest<'c> {
                     let bodies = both.map(|part| parts[part].owner);
                     if !self.cell.is_allowed(bodies) {
                         let pair = BallPair::Obstacle { part, obstacle };
+                        let errors = self.obstacle_errors[obstacle as usize];
                         let margin = pairs.obstacle_margin(bodies);
-                        self.tested.push(TestedPair::new(pair, margin));
+                        self.tested
+                            .push(TestedPair::new(pair, [margin, errors[0], errors[1]]));
                     }
                 }
             }
         }
         for (index, pair) in (0..).zip(pairs.self_pairs()) {
-            let tested = TestedPair::new(BallPair::OfRobot(index), pair.margin);
-            self.tested.push(tested);
+            let [error, touching_error] = self.self_pair_errors(index as usize);
+            let errors = [pair.margin, error, touching_error];
+            self.tested
+                .push(TestedPair::new(BallPair::OfRobot(index), errors));
         }
     }
 
@@ -395,92 +356,47 @@ impl<'c> BallTest<'c> {
             .take_while(|pair| of_part(pair))
             .count();
         let frame = self.cell.parts()[part as usize].frame;
-        let displacement = self.displacement_beyond_velocity(frame, frame);
-        let half_length = splat(level, self.half_length as f32);
+        let displacement = self.displacement_beyond_velocity(frame);
         for index in self.balls.of_part(part as usize) {
             let ball: LaneBall = self.balls.all[index];
             let (center, velocity) = self.placed[index].load(level);
-            let way = velocity.length() * half_length + splat(level, displacement as f32);
+            let way = self.way(level, velocity, displacement);
             for k in first..first + count {
                 let BallPair::Obstacle { obstacle, .. } = self.tested[k].pair else {
                     continue;
                 };
-                let obstacle = &self.obstacles.all[obstacle as usize];
-                let (gaps, error) = self.obstacle_gaps(level, (&ball, center), obstacle, way);
-                self.record(level, k, gaps, error);
+                let gaps = BallGaps {
+                    gap: self.obstacles.all[obstacle as usize].distances(level, center)
+                        - splat(level, ball.radius),
+                    way,
+                    inner_gap: ball.inner_radius - ball.radius,
+                };
+                self.record(level, k, gaps);
             }
         }
         first + count
     }
 
-    /// Compares a ball with an obstacle. Returns the error of the gaps as well.
-    #[inline(always)]
-    fn obstacle_gaps<L: Simd>(
-        &self,
-        level: L,
-        (ball, center): (&LaneBall, Vec3x8<L>),
-        obstacle: &Obstacle,
-        way: f32x8<L>,
-    ) -> (BallGaps<L>, f64) {
-        let error = obstacle.error(self.longest_arm);
-        let touching_gap = if obstacle.is_exact {
-            let inner = f64::from(ball.inner_radius) - f64::from(ball.radius);
-            inner - error - self.errors.position
-        } else {
-            f64::NEG_INFINITY
-        };
-        let gaps = BallGaps {
-            gap: obstacle.distances(level, center) - splat(level, ball.radius),
-            way,
-            touching_gap: touching_gap as f32,
-        };
-        (gaps, error)
-    }
-
     /// Returns a bound of the displacement of a point in half an interval, without the part that follows from its
-    /// velocity: by the second derivative and by errors. The arguments are indices of `motion_bounds`.
+    /// velocity: by the second derivative and by errors. `arms` is an index of `motion_bounds`.
     #[inline(always)]
-    fn displacement_beyond_velocity(&self, one: usize, other: usize) -> f64 {
-        let acceleration = if one == other {
-            self.motion_bounds[one].acceleration
-        } else {
-            self.motion_bounds[one].acceleration + self.motion_bounds[other].acceleration
-        };
-        let h = self.half_length;
+    fn displacement_beyond_velocity(&self, arms: usize) -> f64 {
+        let (h, acceleration) = (self.half_length, self.motion_bounds[arms].acceleration);
         (0.5 * h * h * acceleration + h * self.errors.velocity + self.errors.position) * ENLARGED
     }
 
-    /// Records the intervals in which a ball of a tested pair may touch. `error` bounds the error of the gaps.
+    /// Returns how far balls get in half an interval, from their velocities and from the rest of the displacement.
     #[inline(always)]
-    fn record<L: Simd>(&mut self, level: L, index: usize, gaps: BallGaps<L>, error: f64) {
-        let allowance = (self.tested[index].margin + error) * ENLARGED;
-        let is_free = gaps
-            .gap
-            .simd_gt(gaps.way * splat(level, ENLARGED as f32) + splat(level, allowance as f32));
-        let open = !is_free.to_bitmask() as u8;
-        if open != 0 {
-            let far = gaps.way.simd_gt(splat(level, MIN_DIVIDED_DISPLACEMENT));
-            let touching = gaps.gap.simd_lt(splat(level, gaps.touching_gap));
-            let (mut gap, far) = ([0.0; LANES], far.to_bitmask() as u8);
-            gaps.gap.store_slice(&mut gap);
-            self.record_open(
-                index,
-                [open, open & far, open & touching.to_bitmask() as u8],
-                &gap,
-            );
-        }
+    fn way<L: Simd>(&self, level: L, velocity: Vec3x8<L>, displacement: f64) -> f32x8<L> {
+        let half_length = splat(level, (self.half_length * ENLARGED) as f32);
+        velocity.length() * half_length + splat(level, displacement as f32)
     }
 
-    #[inline(never)]
-    fn record_open(&mut self, index: usize, [open, far, touching]: [u8; 3], gap: &[f32; LANES]) {
+    /// Records the intervals in which a ball of a tested pair may touch.
+    #[inline(always)]
+    fn record<L: Simd>(&mut self, level: L, index: usize, gaps: BallGaps<L>) {
         let tested = &mut self.tested[index];
-        tested.open |= open;
-        tested.far_moving |= far;
-        for (lane, &gap) in gap.iter().enumerate() {
-            if gap < tested.least_gap && open >> lane & 1 == 1 {
-                (tested.nearest, tested.least_gap) = (lane as u8, gap);
-            }
-        }
+        let touching = tested.record(level, gaps);
         if touching != 0 {
             let lane = touching.trailing_zeros() as usize;
             if self.touching.is_none_or(|known| lane < known.lane) {

@@ -1,9 +1,17 @@
 //! Searches a path: for any contact, the first contact or the least distance.
 //!
-//! At the midpoint of an interval the search computes the frames of all links, a displacement bound of each part, and
-//! the distance of each candidate pair. If the distance exceeds the displacements, the pair is free over the whole
-//! interval. The interval is halved for the remaining candidates. Candidates that a few halvings do not decide are
-//! left to the engine, pair by pair.
+//! | step | file |
+//! |---|---|
+//! | for contacts on a segment at constant rates: balls about all links, in eight intervals at once | `ball_test.rs` |
+//! | the intervals in which a pair may still touch | `search/open_intervals.rs` |
+//! | such an interval: steps from the pair's distance forwards and backwards | `search/advance.rs` |
+//! | for the least distance, for curves, and for what the steps leave: halving | `search.rs` |
+//! | what a few halvings leave: the engine, pair by pair | `engine_candidates.rs` |
+//!
+//! Halving: at the midpoint of an interval the search computes the frames of all links, a displacement bound of each
+//! part, and the distance of each candidate pair. If the distance exceeds the displacements, the pair is free over the
+//! whole interval. The interval is halved for the remaining candidates. Candidates that a few halvings do not decide
+//! are left to the engine.
 
 mod advance;
 mod open_intervals;
@@ -238,8 +246,8 @@ impl<'c> PathSearch<'c> {
         self.compares_any.clone()?;
         self.cell.check_plane_reach(self.path.magnitudes())?;
         self.placement.begin(self.cell, &self.path);
-        let (kinematics, parts) = (self.cell.kinematics(), self.cell.parts());
-        let longest_arm = largest_arm(kinematics, parts, self.path.magnitudes());
+        let (kinematics, coordinates) = (self.cell.kinematics(), self.placement.coordinates);
+        let longest_arm = largest_arm(kinematics, coordinates, self.path.magnitudes());
         self.ball_test
             .set_path(&self.path, longest_arm, self.placement.rounding);
         // One half is added to margins. The other half bounds the errors of measured distances.

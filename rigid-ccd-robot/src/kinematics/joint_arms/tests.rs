@@ -55,9 +55,9 @@ fn no_point_accelerates_faster() {
                         };
                         part.points().iter().map(point).collect::<Vec<_>>()
                     });
-                    for corner in 0..part.points().len() {
-                        let [before, here, after] = [0, 1, 2].map(|k| places[k][corner]);
-                        let second = (after - 2.0 * here + before) / (STEP * STEP);
+                    let [before, here, after] = &places;
+                    for ((before, &here), &after) in before.iter().zip(here).zip(after) {
+                        let second = (after - 2.0 * here + *before) / (STEP * STEP);
                         fastest = greater(fastest, second.length());
                     }
                 }

@@ -150,9 +150,9 @@ impl<L: Simd> LoadedFrame<L> {
     #[inline(always)]
     fn combined(&self, level: L, coordinates: &[f32; 3]) -> Vec3x8<L> {
         let mut sum = Vec3x8::splat(level, Vec3::ZERO);
-        for k in 0..3 {
-            if coordinates[k] != 0.0 {
-                sum = sum + self.axes[k] * splat(level, coordinates[k]);
+        for (axis, &coordinate) in self.axes.iter().zip(coordinates) {
+            if coordinate != 0.0 {
+                sum = sum + *axis * splat(level, coordinate);
             }
         }
         sum

@@ -167,6 +167,11 @@ impl Obstacle {
         }
     }
 
+    /// Returns a bound of the error of distances that prove a contact; infinity if a point inside may be outside the body.
+    pub(super) fn touching_error(&self, error: f64) -> f64 {
+        if self.is_exact { error } else { f64::INFINITY }
+    }
+
     /// Bounds the error of distances of points whose coordinates are at most `reach`.
     pub(super) fn error(&self, reach: f64) -> f64 {
         distance_error(reach, self.size)

@@ -15,6 +15,9 @@ use std::f64::consts::TAU;
 /// multiplied.
 const CELL_NUMBER_ERROR: f64 = 16.0;
 
+/// The error of the gap between two balls, in units of roundoff of the longest arm.
+const BALL_GAP_ERROR: f64 = 16.0;
+
 /// Two parts of the robot that are checked against each other.
 #[derive(Clone, Debug)]
 pub(super) struct SelfPair {
@@ -108,44 +111,57 @@ impl LaneTable {
 }
 
 impl BallTest<'_> {
+    /// Returns bounds of the errors of a pair's gaps, and of distances that prove a contact.
+    pub(super) fn self_pair_errors(&self, index: usize) -> [f64; 2] {
+        let pair = &self.self_pairs[index];
+        if pair.table.is_some() {
+            return [2.0 * self.pose_rounding, f64::INFINITY];
+        }
+        match &pair.half_space {
+            Some(half_space) => {
+                let error = half_space.error(self.longest_arm);
+                [error, error + self.errors.position]
+            }
+            None => {
+                let error = BALL_GAP_ERROR * UNIT_ROUNDOFF * self.longest_arm;
+                [error, error + 2.0 * self.errors.position]
+            }
+        }
+    }
+
     /// Compares two parts of the robot.
     #[inline(always)]
-    pub(super) fn compare_robot_pair<L: Simd>(&mut self, level: L, tested: usize, index: usize) {
-        if let Some(table) = &self.self_pairs[index].table {
-            let (gap, way) = (
-                table.lower_bounds(level, &self.positions),
-                self.displacement_in_table(table),
-            );
-            let gaps = BallGaps {
-                gap,
-                way: splat(level, way as f32),
-                touching_gap: f32::NEG_INFINITY,
-            };
-            return self.record(level, tested, gaps, 2.0 * self.pose_rounding);
-        }
+    pub(super) fn compare_self_pair<L: Simd>(&mut self, level: L, tested: usize, index: usize) {
         let pair = &self.self_pairs[index];
+        if let Some(table) = &pair.table {
+            let gaps = BallGaps {
+                gap: table.lower_bounds(level, &self.positions),
+                way: splat(level, self.displacement_in_table(table) as f32),
+                inner_gap: f32::NEG_INFINITY,
+            };
+            return self.record(level, tested, gaps);
+        }
         let ([a, b], arms) = (pair.parts, pair.arms);
-        let common = self.frames[pair.common_frame].load(level);
         if let Some(half_space) = pair.half_space {
             return self.compare_half_space(level, tested, (a, arms[0]), &half_space);
         }
+        let common = self.frames[pair.common_frame].load(level);
         let around = [self.balls.around_part(a), self.balls.around_part(b)];
         let displacement = self.displacement_of_pair(arms);
-        let (gaps, error) = self.ball_gaps(level, around, &common, displacement);
-        let allowance = (self.margin_of(tested) + error) * ENLARGED;
-        let required = gaps.way * splat(level, ENLARGED as f32) + splat(level, allowance as f32);
+        let gaps = self.ball_gaps(level, around, &common, displacement);
+        let required = gaps.way + splat(level, self.tested[tested].allowance);
         if gaps.gap.simd_gt(required).to_bitmask() as u8 == u8::MAX {
             return;
         }
         for one in self.balls.of_part(a) {
             for other in self.balls.of_part(b) {
-                let (gaps, error) = self.ball_gaps(level, [one, other], &common, displacement);
-                self.record(level, tested, gaps, error);
+                let gaps = self.ball_gaps(level, [one, other], &common, displacement);
+                self.record(level, tested, gaps);
             }
         }
     }
 
-    /// Compares two balls, by their velocities relative to a frame. Returns the error of the gaps as well.
+    /// Compares two balls, by their velocities relative to a frame.
     #[inline(always)]
     fn ball_gaps<L: Simd>(
         &self,
@@ -153,25 +169,21 @@ impl BallTest<'_> {
         [one, other]: [usize; 2],
         common: &LoadedFrame<L>,
         displacement: f64,
-    ) -> (BallGaps<L>, f64) {
+    ) -> BallGaps<L> {
         let (ball, other_ball) = (&self.balls.all[one], &self.balls.all[other]);
         let (center, velocity) = self.placed[one].load(level);
         let (other_center, other_velocity) = self.placed[other].load(level);
         let offset = center - other_center;
         let velocity = velocity - other_velocity - common.angular_velocity.cross(offset);
         let radii = ball.radius + other_ball.radius;
-        let half_length = splat(level, self.half_length as f32);
-        let error = 16.0 * UNIT_ROUNDOFF * self.longest_arm;
-        let inner = f64::from(ball.inner_radius) + f64::from(other_ball.inner_radius);
-        let touching_gap = inner - f64::from(radii) - error - 2.0 * self.errors.position;
-        let gaps = BallGaps {
+        BallGaps {
             gap: offset.length() - splat(level, radii),
-            way: velocity.length() * half_length + splat(level, displacement as f32),
-            touching_gap: touching_gap as f32,
-        };
-        (gaps, error)
+            way: self.way(level, velocity, displacement),
+            inner_gap: ball.inner_radius + other_ball.inner_radius - radii,
+        }
     }
 
+    /// Compares the balls of a part with a half-space.
     #[inline(always)]
     fn compare_half_space<L: Simd>(
         &mut self,
@@ -180,14 +192,16 @@ impl BallTest<'_> {
         (part, arms): (usize, usize),
         half_space: &Obstacle,
     ) {
-        let displacement = self.displacement_beyond_velocity(arms, arms);
-        let half_length = splat(level, self.half_length as f32);
+        let displacement = self.displacement_beyond_velocity(arms);
         for index in self.balls.of_part(part) {
             let ball = self.balls.all[index];
             let (center, velocity) = self.placed[index].load(level);
-            let way = velocity.length() * half_length + splat(level, displacement as f32);
-            let (gaps, error) = self.obstacle_gaps(level, (&ball, center), half_space, way);
-            self.record(level, tested, gaps, error);
+            let gaps = BallGaps {
+                gap: half_space.distances(level, center) - splat(level, ball.radius),
+                way: self.way(level, velocity, displacement),
+                inner_gap: ball.inner_radius - ball.radius,
+            };
+            self.record(level, tested, gaps);
         }
     }
 
@@ -214,10 +228,5 @@ impl BallTest<'_> {
             displacement += (turn + 2.0 * angle_error) * axis.arm_length;
         }
         displacement * ENLARGED
-    }
-
-    #[inline(always)]
-    fn margin_of(&self, tested: usize) -> f64 {
-        self.tested[tested].margin
     }
 }

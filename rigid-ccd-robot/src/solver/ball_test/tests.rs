@@ -1,6 +1,7 @@
 //! Tests what the ball test proves against distances at sampled configurations.
 
 use super::*;
+use crate::cell::rounding::largest_arm;
 use crate::solver::measure::minkowski_support_vertex;
 use crate::solver::placement::Placement;
 use crate::solver::tests::{configuration_between, random_cell, random_configuration};
@@ -69,8 +70,7 @@ fn a_pair_that_is_not_open_stays_apart_and_a_touching_pair_touches() {
         let mut path = JointPath::default();
         path.set_configurations(cell.kinematics(), &[&from, &to]);
         placement.begin(&cell, &path);
-        let parts = cell.parts();
-        let arm = crate::cell::rounding::largest_arm(cell.kinematics(), parts, path.magnitudes());
+        let arm = largest_arm(cell.kinematics(), placement.coordinates, path.magnitudes());
         test.set_path(&path, arm, placement.rounding);
         assert!(test.set_segment(path.changes(0)));
         let start = random.random_range(0.0..0.5);

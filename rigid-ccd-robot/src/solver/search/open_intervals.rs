@@ -169,13 +169,13 @@ impl PathSearch<'_> {
             // Some pairs were not compared before the contact.
             return self.test_before_contact(tested);
         }
-        let far_moving = self.ball_test.open_pairs();
-        let far_moving = far_moving.fold(0, |lanes, pair| lanes | pair.far_moving);
-        let divided = if tested.divisions < MAX_DIVISIONS {
-            far_moving
-        } else {
-            0
+        // Shorter intervals help little against boxes around bodies.
+        let divides = |pair: &&TestedPair| match tested.divisions {
+            0 => true,
+            divisions => divisions < MAX_DIVISIONS && pair.is_exact(),
         };
+        let far_moving = self.ball_test.open_pairs().filter(divides);
+        let divided = far_moving.fold(0, |lanes, pair| lanes | pair.far_moving);
         // The earliest interval is tested next.
         for lane in (0..LANES).rev() {
             let (from, to) = (boundary(lane), boundary(lane + 1));

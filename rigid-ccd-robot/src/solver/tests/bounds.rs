@@ -1,7 +1,7 @@
 //! Tests the error bounds of frames and the displacement bounds of parts.
 
 use super::*;
-use crate::cell::rounding::point_error_bound;
+use crate::cell::rounding::{CoordinateBounds, point_error_bound};
 use crate::kinematics::Kinematics;
 use crate::kinematics::magnitude::Magnitude;
 use crate::solver::displacement::DisplacementBounds;
@@ -28,7 +28,11 @@ fn frames_are_within_the_bound_on_rounding() {
             position: position.abs(),
             rounding: position.abs(),
         });
-        let bound = point_error_bound(kinematics, cell.parts(), largest);
+        let bound = point_error_bound(
+            kinematics,
+            CoordinateBounds::of_parts(cell.parts()),
+            largest,
+        );
         for part in &cell.parts()[..cell.robot_part_count()] {
             let link = cell.link_of(part.owner);
             let pose = robot

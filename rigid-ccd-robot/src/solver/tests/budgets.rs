@@ -87,6 +87,39 @@ fn a_budget_is_for_a_whole_question() {
     );
 }
 
+/// Tests that a limit never claims more than what all pairs have been searched for: neither a contact that is found nor
+/// one that is still unknown lies before the proven point.
+#[test]
+fn a_limit_proves_nothing_beyond_the_first_contact() {
+    let mut random = Pcg64::seed_from_u64(33);
+    let (mut unresolved, mut in_part) = (0, 0);
+    for _ in 0..30 {
+        let cell = crowded_cell(&mut random);
+        let path = [(); 3].map(|()| random_configuration(&mut random, cell.robot()));
+        let first_contact = |budget: u64, tolerance: f64| {
+            let settings = Settings {
+                budget,
+                tolerance,
+                ..Settings::DEFAULT
+            };
+            let mut solver = cell.solver().with_settings(settings);
+            let answer = solver.first_contact(&path).unwrap();
+            (answer.free_until.time(), answer.outcome.limit())
+        };
+        let (end, limit) = first_contact(Settings::DEFAULT.budget, 1e-9);
+        assert_eq!(limit, None);
+        // The contact may come this much later, if the bodies approach more slowly than a thousandth of a unit.
+        let end = end + 1e-6;
+        for budget in [1, 2, 3, 5, 8, 13, 21, 34, 55, 89] {
+            let (free_until, limit) = first_contact(budget, 1e-6);
+            assert!(free_until <= end, "{free_until} {end}");
+            unresolved += usize::from(limit.is_some());
+            in_part += usize::from(limit.is_some() && free_until > 0.0);
+        }
+    }
+    assert!(unresolved > 30 && in_part > 10, "{unresolved} {in_part}");
+}
+
 /// Tests that no question starts a search after the deadline.
 #[test]
 fn a_deadline_of_no_time_ends_all_questions() {
