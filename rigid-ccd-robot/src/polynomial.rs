@@ -71,6 +71,17 @@ impl Polynomial {
         sum.value()
     }
 
+    /// Returns the value and the derivative at an offset from the expansion point, rounded to f64.
+    pub(crate) fn value_and_rate(&self, offset: f64) -> [f64; 2] {
+        let offset = DoubleDouble::from(offset);
+        let (mut value, mut rate) = (DoubleDouble::default(), DoubleDouble::default());
+        for &coefficient in self.coefficients[..=self.degree].iter().rev() {
+            rate = value + offset * rate;
+            value = coefficient + offset * value;
+        }
+        [value.value(), rate.value()]
+    }
+
     #[cfg(test)]
     pub(crate) fn coefficient(&self, power: usize) -> f64 {
         self.coefficients[power].value()
@@ -131,18 +142,21 @@ impl Polynomial {
         sum * ROUNDING_FACTOR
     }
 
-    /// Bounds the deviation from the chord between the values at `-half` and `half`.
-    ///
-    /// A function deviates from its chord by at most `(2h)²/8` times its largest second derivative: `Σ i (i−1)/2 |cᵢ|
-    /// hⁱ`.
-    pub(crate) fn chord_deviation_bound(&self, half: f64) -> f64 {
+    /// Bounds the absolute value of the second derivative within `half` of the expansion point: `Σ i (i−1) |cᵢ| hⁱ⁻²`.
+    pub(crate) fn second_derivative_bound(&self, half: f64) -> f64 {
         let higher_terms = self.coefficients[..=self.degree].iter().enumerate().skip(2);
         let sum = higher_terms.rev().fold(0.0, |sum, (power, coefficient)| {
-            let pairs = (power * (power - 1) / 2) as f64;
-            pairs * coefficient.value().abs() + half * sum
+            (power * (power - 1)) as f64 * coefficient.value().abs() + half * sum
         });
+        sum * ROUNDING_FACTOR
+    }
+
+    /// Bounds the deviation from the chord between the values at `-half` and `half`.
+    ///
+    /// A function deviates from its chord by at most `(2h)²/8` times its largest second derivative.
+    pub(crate) fn chord_deviation_bound(&self, half: f64) -> f64 {
         // Multiplies twice, because the square of a small `half` may underflow.
-        half * (half * sum) * ROUNDING_FACTOR
+        half * (half * (0.5 * self.second_derivative_bound(half)))
     }
 }
 

@@ -21,10 +21,12 @@ struct JointArm {
     length: f64,
 }
 
-/// Bounds of the motion of a frame's points relative to an ancestor frame, while all joints move at constant rates.
+/// Bounds of the motion of a joint, as absolute values.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct MotionBounds {
-    /// An upper bound of the second derivative of a point's position.
+pub(crate) struct JointMotion {
+    pub(crate) position: f64,
+    pub(crate) rate: f64,
+    /// The derivative of the rate.
     pub(crate) acceleration: f64,
 }
 
@@ -57,30 +59,32 @@ impl JointArms {
         JointArms(arms)
     }
 
-    /// Bounds the motion of the points for the rates of all joints. `largest_positions` are the largest absolute
-    /// positions of all joints.
+    /// Bounds the second derivative of the points' positions relative to the ancestor frame, for the motions of all
+    /// joints.
     ///
     /// Let `y` be the vector from a joint's origin to a point, seen from the frame after the joint, and `ρ` its largest
     /// distance from the joint's axis. The joint turns it at the rate `r`. Seen from the frame before the joint, the
-    /// speed grows by at most `|r| ρ`, and the second derivative, with `ω × (ω × y)` and the Coriolis term `2 ω × ẏ`,
-    /// by at most `r² ρ + 2 |r| |ẏ|`. A prismatic joint adds `|r|` to the speed, and nothing to the second derivative.
+    /// speed grows by at most `|r| ρ`, and the second derivative, with `ω × (ω × y)`, the Coriolis term `2 ω × ẏ` and
+    /// `ω̇ × y`, by at most `r² ρ + 2 |r| |ẏ| + |ṙ| ρ`. A prismatic joint adds `|r|` to the speed, and `|ṙ|` to the
+    /// second derivative.
     #[inline]
-    pub(crate) fn motion_bounds(&self, rates: &[f64], largest_positions: &[f64]) -> MotionBounds {
+    pub(crate) fn acceleration_bound(&self, motions: &[JointMotion]) -> f64 {
         let (mut speed, mut acceleration, mut travel) = (0.0, 0.0, 0.0);
         for arm in &self.0 {
-            let rate = rates[arm.joint].abs();
+            let motion = &motions[arm.joint];
             if arm.is_prismatic {
-                speed += rate;
-                travel += largest_positions[arm.joint];
+                speed += motion.rate;
+                acceleration += motion.acceleration;
+                travel += motion.position;
             } else {
-                let own_speed = rate * (arm.length + travel);
-                acceleration += rate * (own_speed + 2.0 * speed);
+                let length = arm.length + travel;
+                let own_speed = motion.rate * length;
+                acceleration +=
+                    motion.rate * (own_speed + 2.0 * speed) + motion.acceleration * length;
                 speed += own_speed;
             }
         }
-        MotionBounds {
-            acceleration: acceleration * ROUNDING_FACTOR,
-        }
+        acceleration * ROUNDING_FACTOR
     }
 
     /// Returns the revolute joints with the lengths of their arms; `None` if there is a prismatic joint.

@@ -6,6 +6,7 @@
 use super::interval::PathInterval;
 use crate::cell::rounding::U;
 use crate::joint_curve::JointCurve;
+use crate::kinematics::joint_arms::JointMotion;
 use crate::kinematics::magnitude::Magnitude;
 use crate::kinematics::{Kinematics, MovingJoint};
 use crate::path_point::PathPoint;
@@ -113,11 +114,6 @@ impl JointPath {
         self.degree <= 1
     }
 
-    /// Returns how far each joint moves in a segment with constant rates.
-    pub(crate) fn changes(&self, segment: usize) -> &[f64] {
-        self.coefficient_row(segment, 1)
-    }
-
     /// Returns where each joint starts in a segment with constant rates, and how far it moves.
     #[inline(always)]
     pub(crate) fn starts_and_changes(&self, segment: usize) -> (&[f64], &[f64]) {
@@ -156,6 +152,36 @@ impl JointPath {
         let [starts, changes] = [0, 1].map(|power| self.coefficient_row(segment, power));
         let joints = starts.iter().zip(changes);
         positions.extend(joints.map(|(start, change)| start + fraction * change));
+    }
+
+    /// Computes the rates of all joints at a point of a segment.
+    #[inline(always)]
+    pub(crate) fn rates_in_segment(&self, segment: usize, at: f64, rates: &mut Vec<f64>) {
+        rates.clear();
+        if self.has_constant_rates() {
+            rates.extend_from_slice(self.coefficient_row(segment, 1));
+        } else {
+            let rate = |joint| self.position_and_rate(segment, at - segment as f64, joint)[1];
+            rates.extend((0..self.joint_count).map(rate));
+        }
+    }
+
+    /// Bounds the motion of a joint in a segment. The position is bounded for the whole path.
+    pub(crate) fn joint_motion(&self, segment: usize, joint: usize) -> JointMotion {
+        let position = self.magnitudes[joint].position;
+        if self.has_constant_rates() {
+            return JointMotion {
+                position,
+                rate: self.coefficient_row(segment, 1)[joint].abs(),
+                acceleration: 0.0,
+            };
+        }
+        let expanded = self.polynomial(segment, joint).expanded_about(0.5);
+        JointMotion {
+            position,
+            rate: expanded.rate_bound(0.5),
+            acceleration: expanded.second_derivative_bound(0.5),
+        }
     }
 
     /// Computes, for each joint, the largest deviation within an interval from its position at the midpoint, which is
@@ -206,6 +232,16 @@ impl JointPath {
     /// Returns the position of a joint of a curve at a fraction of a segment.
     pub(crate) fn position(&self, segment: usize, fraction: f64, joint: usize) -> f64 {
         self.polynomial(segment, joint).value(fraction)
+    }
+
+    /// Returns the position and the rate of a joint of a curve at a fraction of a segment.
+    pub(crate) fn position_and_rate(
+        &self,
+        segment: usize,
+        fraction: f64,
+        joint: usize,
+    ) -> [f64; 2] {
+        self.polynomial(segment, joint).value_and_rate(fraction)
     }
 
     /// Bounds how far a joint of a curve deviates from a motion at a constant rate between two fractions of a segment.

@@ -1,4 +1,4 @@
-//! The first test of a segment at constant rates: eight intervals at once, in f32.
+//! The first test of a segment: eight intervals at once, in f32.
 //!
 //! | step | file |
 //! |---|---|
@@ -28,7 +28,7 @@ use super::part_pairs::{PartPair, PartPairs};
 use crate::cell::Cell;
 use crate::cell::ball_model::BallModel;
 use crate::cell::cover::Covers;
-use crate::kinematics::joint_arms::{JointArms, MotionBounds};
+use crate::kinematics::joint_arms::{JointArms, JointMotion};
 use crate::path::joint_path::JointPath;
 use crate::tuning::MAX_BALL_TEST_ERROR;
 use ccd_core::fearless_simd::{Simd, f32x8};
@@ -59,18 +59,19 @@ pub(crate) struct BallTest<'c> {
     /// The joints between frames and their ancestors: first for each frame and the base, then others for pairs.
     arms: Vec<JointArms>,
     // For the current path and segment:
-    largest_positions: Vec<f64>,
+    motions: Vec<JointMotion>,
     /// A bound of the distance of any point of a robot's part from the base and from any joint axis.
     longest_arm: f64,
     pose_rounding: f64,
     errors: LaneErrors,
     /// For each obstacle the errors of gaps, and of distances that prove a contact.
     obstacle_errors: Vec<[f64; 2]>,
-    rates: Vec<f32>,
-    motion_bounds: Vec<MotionBounds>,
+    /// For each of `arms`, a bound of the second derivatives of positions.
+    accelerations: Vec<f64>,
     // For the current intervals:
     half_length: f64,
     positions: Vec<[f32; LANES]>,
+    rates: Vec<[f32; LANES]>,
     frames: Vec<LaneFrame>,
     placed: Vec<PlacedBall>,
     /// The tested pairs, and what the test has found out about each. Pairs with obstacles are sorted by part.
@@ -118,16 +119,16 @@ impl<'c> BallTest<'c> {
             balls: LaneBalls::new(&model.covers, robot_parts, &to_lane_frames),
             obstacles: Obstacles::new(&cell.parts()[robot_parts.len()..], robot_parts.len()),
             self_pairs,
-            largest_positions: Vec::new(),
+            motions: Vec::new(),
             longest_arm: 0.0,
             pose_rounding: 0.0,
             errors: LaneErrors::default(),
             obstacle_errors: Vec::new(),
-            rates: vec![0.0; joints.len()],
-            motion_bounds: vec![MotionBounds::default(); arms.len()],
+            accelerations: Vec::new(),
             arms,
             half_length: 0.0,
             positions: vec![[0.0; LANES]; joints.len()],
+            rates: vec![[0.0; LANES]; joints.len()],
             frames: vec![LaneFrame::BASE; frame_count],
             placed: Vec::new(),
             tested: Vec::new(),
@@ -140,28 +141,28 @@ impl<'c> BallTest<'c> {
 
     /// Sets the path. `longest_arm` bounds the distance of any point of a moving part from the base and from any joint
     /// axis, `pose_rounding` the error of poses in f64.
-    pub(crate) fn set_path(&mut self, path: &JointPath, longest_arm: f64, pose_rounding: f64) {
-        let positions = path.magnitudes().map(|magnitude| magnitude.position);
-        self.largest_positions.clear();
-        self.largest_positions.extend(positions);
+    pub(crate) fn set_path(&mut self, longest_arm: f64, pose_rounding: f64) {
         self.longest_arm = greater(longest_arm, self.balls.static_reach);
         self.pose_rounding = pose_rounding;
     }
 
     /// Sets the segment. Returns whether the test can be used for it: not if a joint turns very often, and not if
     /// rounding errors in f32 are large.
-    pub(crate) fn set_segment(&mut self, changes: &[f64]) -> bool {
+    pub(crate) fn set_segment(&mut self, path: &JointPath, segment: usize) -> bool {
+        let joints = 0..self.joints.len();
+        self.motions.clear();
+        self.motions
+            .extend(joints.map(|joint| path.joint_motion(segment, joint)));
         let sources = ErrorSources {
             longest_arm: self.longest_arm,
             pose_rounding: self.pose_rounding,
-            changes,
-            largest_positions: &self.largest_positions,
+            motions: &self.motions,
         };
         let kinematics = self.cell.kinematics();
         self.errors = LaneErrors::new(kinematics, &sources);
-        let mut joints = kinematics.joints().iter().zip(changes);
+        let mut joints = kinematics.joints().iter().zip(&self.motions);
         let is_slow =
-            joints.all(|(joint, change)| joint.is_prismatic || change.abs() < MAX_ANGLE - TAU);
+            joints.all(|(joint, motion)| joint.is_prismatic || motion.rate < MAX_ANGLE - TAU);
         // Written so that NaN is refused.
         if !(is_slow && self.errors.position < MAX_BALL_TEST_ERROR * self.balls.largest_radius) {
             return false;
@@ -173,12 +174,19 @@ impl<'c> BallTest<'c> {
         });
         self.obstacle_errors.clear();
         self.obstacle_errors.extend(errors);
-        for (rate, change) in self.rates.iter_mut().zip(changes) {
-            *rate = *change as f32;
+        if path.has_constant_rates() {
+            let (_, changes) = path.starts_and_changes(segment);
+            for (rates, &change) in self.rates.iter_mut().zip(changes) {
+                *rates = [change as f32; LANES];
+            }
         }
-        for (bounds, arms) in self.motion_bounds.iter_mut().zip(&self.arms) {
-            *bounds = arms.motion_bounds(changes, &self.largest_positions);
-        }
+        let motions = &self.motions;
+        let accelerations = self
+            .arms
+            .iter()
+            .map(|arms| arms.acceleration_bound(motions));
+        self.accelerations.clear();
+        self.accelerations.extend(accelerations);
         true
     }
 
@@ -188,11 +196,11 @@ impl<'c> BallTest<'c> {
         match pair {
             BallPair::Obstacle { part, .. } => {
                 let frame = self.cell.parts()[part as usize].frame;
-                self.motion_bounds[frame].acceleration
+                self.accelerations[frame]
             }
             BallPair::OfRobot(index) => {
                 let [a, b] = self.self_pairs[index as usize].arms;
-                self.motion_bounds[a].acceleration + self.motion_bounds[b].acceleration
+                self.accelerations[a] + self.accelerations[b]
             }
         }
     }
@@ -281,6 +289,10 @@ impl<'c> BallTest<'c> {
         // A lane's interval may be rounded by a few units of f64.
         self.half_length = (to - from) / (2 * LANES) as f64 * ENLARGED + 4.0 * f64::EPSILON;
         let (middle, step) = (0.5 * (from + to), (to - from) / (2 * LANES) as f64);
+        let offset = |lane: usize| step * ((2 * lane) as f64 - (LANES - 1) as f64);
+        if !path.has_constant_rates() {
+            return self.set_curved_intervals(path, segment, |lane| middle + offset(lane));
+        }
         let (starts, changes) = path.starts_and_changes(segment);
         for (k, joint) in self.cell.kinematics().joints().iter().enumerate() {
             let mut center = starts[k] + middle * changes[k];
@@ -288,8 +300,27 @@ impl<'c> BallTest<'c> {
                 center -= TAU * (center / TAU).round();
             }
             for (lane, position) in self.positions[k].iter_mut().enumerate() {
-                let offset = (2 * lane) as f64 - (LANES - 1) as f64;
-                *position = (center + changes[k] * (step * offset)) as f32;
+                *position = (center + changes[k] * offset(lane)) as f32;
+            }
+        }
+    }
+
+    /// Computes the positions and rates of all joints at the midpoints of eight intervals of a curve.
+    #[inline(never)]
+    fn set_curved_intervals(
+        &mut self,
+        path: &JointPath,
+        segment: usize,
+        midpoint: impl Fn(usize) -> f64,
+    ) {
+        for (k, joint) in self.cell.kinematics().joints().iter().enumerate() {
+            for lane in 0..LANES {
+                let [mut position, rate] = path.position_and_rate(segment, midpoint(lane), k);
+                if !joint.is_prismatic {
+                    position -= TAU * (position / TAU).round();
+                }
+                self.positions[k][lane] = position as f32;
+                self.rates[k][lane] = rate as f32;
             }
         }
     }
@@ -378,10 +409,10 @@ impl<'c> BallTest<'c> {
     }
 
     /// Returns a bound of the displacement of a point in half an interval, without the part that follows from its
-    /// velocity: by the second derivative and by errors. `arms` is an index of `motion_bounds`.
+    /// velocity: by the second derivative and by errors. `arms` is an index of `accelerations`.
     #[inline(always)]
     fn displacement_beyond_velocity(&self, arms: usize) -> f64 {
-        let (h, acceleration) = (self.half_length, self.motion_bounds[arms].acceleration);
+        let (h, acceleration) = (self.half_length, self.accelerations[arms]);
         (0.5 * h * h * acceleration + h * self.errors.velocity + self.errors.position) * ENLARGED
     }
 

@@ -63,7 +63,7 @@ impl Periods {
             return;
         }
         for segment in 0..path.segment_count() {
-            let changes = path.changes(segment);
+            let (_, changes) = path.starts_and_changes(segment);
             if !turns_often(kinematics, changes) {
                 continue;
             }

@@ -2,10 +2,10 @@
 //!
 //! | step | file |
 //! |---|---|
-//! | for contacts on a segment at constant rates: balls about all links, in eight intervals at once | `ball_test.rs` |
+//! | for contacts: balls about all links, in eight intervals at once | `ball_test.rs` |
 //! | the intervals in which a pair may still touch | `search/open_intervals.rs` |
 //! | such an interval: steps from the pair's distance forwards and backwards | `search/advance.rs` |
-//! | for the least distance, for curves, and for what the steps leave: halving | `search.rs` |
+//! | for the least distance, and for what the steps leave: halving | `search.rs` |
 //! | what a few halvings leave: the engine, pair by pair | `engine_candidates.rs` |
 //!
 //! Halving: at the midpoint of an interval the search computes the frames of all links, a displacement bound of each
@@ -58,13 +58,14 @@ pub(crate) struct PathSearch<'c> {
     pub(super) path: JointPath,
     pub(super) placement: Placement,
     pub(super) periods: Periods,
-    /// The first test of a segment at constant rates, and the intervals that it leaves open.
+    /// The first test of a segment, and the intervals that it leaves open.
     pub(super) ball_test: BallTest<'c>,
     intervals: Intervals,
-    /// For the open interval of a pair: the joints between both parts, the positions of all joints, and the intervals
-    /// that are not searched yet, the latest first.
+    /// For the open interval of a pair: the joints between both parts, the positions and rates of all joints, and the
+    /// intervals that are not searched yet, the latest first.
     joints_between: [Vec<usize>; 2],
     positions: Vec<f64>,
+    rates: Vec<f64>,
     unsearched: Vec<[f64; 2]>,
     /// The point of the path up to which all pairs are searched, while intervals are searched pair by pair; infinity
     /// otherwise.
@@ -141,6 +142,7 @@ impl<'c> PathSearch<'c> {
             intervals: Intervals::default(),
             joints_between: Default::default(),
             positions: Vec::new(),
+            rates: Vec::new(),
             unsearched: Vec::new(),
             searched_until: f64::INFINITY,
             cell,
@@ -249,7 +251,7 @@ impl<'c> PathSearch<'c> {
         let (kinematics, coordinates) = (self.cell.kinematics(), self.placement.coordinates);
         let longest_arm = largest_arm(kinematics, coordinates, self.path.magnitudes());
         self.ball_test
-            .set_path(&self.path, longest_arm, self.placement.rounding);
+            .set_path(longest_arm, self.placement.rounding);
         // One half is added to margins. The other half bounds the errors of measured distances.
         let rounding = 4.0 * self.placement.rounding;
         self.tolerance = greater(self.settings.tolerance, rounding);

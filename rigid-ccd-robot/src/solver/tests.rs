@@ -12,7 +12,9 @@ mod tolerances;
 mod twin;
 
 use super::*;
+use crate::JointCurve;
 use crate::pairs::LinkPairs;
+use crate::path::joint_path::JointPath;
 use crate::robot::{Joint, Link, PositionRule, Robot};
 use crate::test_robots::{random_body, random_pose, random_robot};
 use ccd_core::order::{greater, lesser};
@@ -38,6 +40,20 @@ pub(crate) fn random_cell(random: &mut Pcg64) -> Cell {
 pub(crate) fn random_configuration(random: &mut Pcg64, robot: &Robot) -> Vec<f64> {
     let names = robot.independent_joint_names();
     names.map(|_| random.random_range(-1.5..1.5)).collect()
+}
+
+/// Returns a path of one segment between two configurations, every other one curved.
+pub(crate) fn random_segment(random: &mut Pcg64, cell: &Cell, ends: [&Vec<f64>; 2]) -> JointPath {
+    let mut path = JointPath::default();
+    if random.random_range(0..2) == 0 {
+        path.set_configurations(cell.kinematics(), &ends);
+    } else {
+        let velocities = [(); 2].map(|()| random_configuration(random, cell.robot()));
+        let curve = JointCurve::cubic_hermite(&[0.0, 1.0], &ends, &[&velocities[0], &velocities[1]]);
+        let curve = curve.unwrap();
+        path.set_curve(cell.kinematics(), &curve);
+    }
+    path
 }
 
 /// Returns the least distance of all checked pairs at a configuration, from the distances of single pairs.

@@ -1,7 +1,7 @@
 //! Tests bounds of second derivatives against differences of positions.
 
 use super::*;
-use crate::solver::tests::{configuration_between, random_cell, random_configuration};
+use crate::solver::tests::{random_cell, random_configuration, random_segment};
 use ccd_core::order::lesser;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -12,25 +12,16 @@ const STEP: f64 = 1e-3;
 #[test]
 fn no_point_accelerates_faster() {
     let mut random = Pcg64::seed_from_u64(5);
-    let (mut tightest, mut compared, mut prismatic) = (f64::INFINITY, 0, 0);
+    let (mut tightest, mut compared) = (f64::INFINITY, 0);
+    let (mut prismatic, mut curved) = (0, 0);
     for _ in 0..80 {
         let cell = random_cell(&mut random);
         let kinematics = cell.kinematics();
-        let [from, to] = [0, 1].map(|_| random_configuration(&mut random, cell.robot()));
-        let position = |configuration: &[f64]| -> Vec<f64> {
-            let joints = kinematics.joints().iter();
-            joints
-                .map(|joint| joint.source.position(configuration))
-                .collect()
-        };
-        let [starts, ends] = [&from, &to].map(|at| position(at));
-        let rates: Vec<f64> = starts
-            .iter()
-            .zip(&ends)
-            .map(|(from, to)| to - from)
-            .collect();
-        let largest = starts.iter().zip(&ends);
-        let largest: Vec<f64> = largest.map(|(a, b)| greater(a.abs(), b.abs())).collect();
+        let ends = [(); 2].map(|()| random_configuration(&mut random, cell.robot()));
+        let path = random_segment(&mut random, &cell, [&ends[0], &ends[1]]);
+        let joints = 0..kinematics.joints().len();
+        let motions: Vec<_> = joints.map(|joint| path.joint_motion(0, joint)).collect();
+        curved += usize::from(!path.has_constant_rates());
         prismatic += kinematics
             .joints()
             .iter()
@@ -40,14 +31,14 @@ fn no_point_accelerates_faster() {
             let mut ancestor = part.frame;
             loop {
                 let arms = JointArms::new(kinematics, (part.frame, part.points()), ancestor);
-                let bound = arms.motion_bounds(&rates, &largest).acceleration;
+                let bound = arms.acceleration_bound(&motions);
                 let mut fastest: f64 = 0.0;
                 for k in 0..10 {
                     let at = 0.05 + 0.09 * f64::from(k);
                     let places = [at - STEP, at, at + STEP].map(|time| {
-                        let mut frames = Vec::new();
-                        let configuration = configuration_between(&from, &to, time);
-                        kinematics.place(position(&configuration).into_iter(), &mut frames);
+                        let (mut positions, mut frames) = (Vec::new(), Vec::new());
+                        path.interpolate_in_segment(0, time, &mut positions);
+                        kinematics.place(positions.into_iter(), &mut frames);
                         let seen_from = frames[ancestor];
                         let point = |corner: &DVec3| {
                             let point = frames[part.frame].transform_point(*corner);
@@ -73,7 +64,11 @@ fn no_point_accelerates_faster() {
             }
         }
     }
-    assert!(compared > 300 && prismatic > 20, "{compared} {prismatic}");
+    let counts = [compared, prismatic, curved];
+    assert!(
+        compared > 300 && prismatic > 20 && curved > 20,
+        "{counts:?}"
+    );
     // A single joint turns its corners at exactly this rate.
     assert!(tightest < 1.0 + 1e-4, "{tightest}");
 }

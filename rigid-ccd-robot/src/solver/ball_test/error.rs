@@ -4,6 +4,7 @@
 //! the frames after it, and the error of a point is at most that of the rotations times the longest arm.
 
 use crate::kinematics::Kinematics;
+use crate::kinematics::joint_arms::JointMotion;
 use std::f64::consts::PI;
 
 /// The unit roundoff of f32: half the distance from 1 to the next number.
@@ -42,24 +43,21 @@ pub(super) struct ErrorSources<'p> {
     pub(super) longest_arm: f64,
     /// A bound of the error of poses in f64.
     pub(super) pose_rounding: f64,
-    /// How far each joint moves in the segment.
-    pub(super) changes: &'p [f64],
-    /// The largest absolute position of each joint.
-    pub(super) largest_positions: &'p [f64],
+    /// The motions of all joints.
+    pub(super) motions: &'p [JointMotion],
 }
 
 impl LaneErrors {
     pub(super) fn new(kinematics: &Kinematics, sources: &ErrorSources<'_>) -> Self {
         let (mut largest_turn, mut turning, mut sliding, mut travel) = (0.0, 0.0, 0.0, 0.0);
         let joints = kinematics.joints();
-        for (k, joint) in joints.iter().enumerate() {
-            let change = sources.changes[k].abs();
+        for (joint, motion) in joints.iter().zip(sources.motions) {
             if joint.is_prismatic {
-                sliding += change;
-                travel += sources.largest_positions[k];
+                sliding += motion.rate;
+                travel += motion.position;
             } else {
-                turning += change;
-                largest_turn = ccd_core::order::greater(largest_turn, change);
+                turning += motion.rate;
+                largest_turn = ccd_core::order::greater(largest_turn, motion.rate);
             }
         }
         let count = joints.len() as f64;

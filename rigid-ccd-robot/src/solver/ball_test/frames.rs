@@ -105,17 +105,17 @@ impl LaneFrame {
     }
 }
 
-/// Computes all frames for eight positions of each joint, and for the joints' rates.
+/// Computes all frames for eight positions and rates of each joint.
 #[inline(always)]
 pub(super) fn place_frames<L: Simd>(
     level: L,
     joints: &[LaneJoint],
-    (positions, rates): (&[[f32; 8]], &[f32]),
+    (positions, rates): (&[[f32; 8]], &[[f32; 8]]),
     frames: &mut [LaneFrame],
 ) {
     for (k, joint) in joints.iter().enumerate() {
         let parent = frames[joint.parent].load(level);
-        let rate = splat(level, rates[k]);
+        let rate = load(level, &rates[k]);
         let position = load(level, &positions[k]);
         let offset = parent.combined(level, &joint.origin);
         let mut velocity = parent.velocity + parent.angular_velocity.cross(offset);

@@ -4,7 +4,9 @@ use super::*;
 use crate::cell::rounding::largest_arm;
 use crate::solver::measure::minkowski_support_vertex;
 use crate::solver::placement::Placement;
-use crate::solver::tests::{configuration_between, random_cell, random_configuration};
+use crate::solver::tests::{
+    configuration_between, random_cell, random_configuration, random_segment,
+};
 use ccd_core::order::lesser;
 use ccd_distance_gjk::bound_distance;
 use rand::{RngExt, SeedableRng};
@@ -67,12 +69,11 @@ fn a_pair_that_is_not_open_stays_apart_and_a_touching_pair_touches() {
         let from = random_configuration(&mut random, cell.robot());
         let to = random_configuration(&mut random, cell.robot());
         let to = configuration_between(&from, &to, [0.02, 0.2, 1.0, 4.0][round % 4]);
-        let mut path = JointPath::default();
-        path.set_configurations(cell.kinematics(), &[&from, &to]);
+        let path = random_segment(&mut random, &cell, [&from, &to]);
         placement.begin(&cell, &path);
         let arm = largest_arm(cell.kinematics(), placement.coordinates, path.magnitudes());
-        test.set_path(&path, arm, placement.rounding);
-        assert!(test.set_segment(path.changes(0)));
+        test.set_path(arm, placement.rounding);
+        assert!(test.set_segment(&path, 0));
         let start = random.random_range(0.0..0.5);
         let end = start + random.random_range(1e-4..0.5);
         test.test((&path, 0), [start, end], &pairs, None);
@@ -119,14 +120,15 @@ fn what_f32_cannot_resolve_is_refused() {
     let placement = Placement::new(&cell);
     let pairs = PartPairs::new(&cell, &placement.displacement_bounds);
     let mut test = BallTest::new(&cell, &pairs);
-    let rates = vec![1.0; cell.kinematics().joints().len()];
     let mut path = JointPath::default();
-    let zero = vec![0.0; cell.robot().independent_joint_names().count()];
-    path.set_configurations(cell.kinematics(), &[&zero, &zero]);
-    test.set_path(&path, 10.0, 1e-12);
-    assert!(test.set_segment(&rates));
-    test.set_path(&path, 1e6, 1e-12);
-    assert!(!test.set_segment(&rates));
-    test.set_path(&path, 10.0, f64::NAN);
-    assert!(!test.set_segment(&rates));
+    let ends = [0.0, 1.0].map(|x| vec![x; cell.robot().independent_joint_names().count()]);
+    path.set_configurations(cell.kinematics(), &ends);
+    for (longest_arm, rounding, is_usable) in [
+        (10.0, 1e-12, true),
+        (1e6, 1e-12, false),
+        (10.0, f64::NAN, false),
+    ] {
+        test.set_path(longest_arm, rounding);
+        assert_eq!(test.set_segment(&path, 0), is_usable);
+    }
 }

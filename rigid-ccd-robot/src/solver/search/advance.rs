@@ -169,13 +169,13 @@ impl PathSearch<'_> {
     ) -> Advance {
         let (path, segment) = (&self.path, open.segment);
         path.interpolate_in_segment(segment, at, &mut self.positions);
-        let rates = path.changes(segment);
+        path.rates_in_segment(segment, at, &mut self.rates);
         let (kinematics, [joints_a, joints_b]) = (self.cell.kinematics(), &self.joints_between);
         let placed = PlacedPair {
             parts: [pair.a, pair.b].map(|part| &self.cell.parts()[part as usize]),
             frames: [
-                kinematics.moving_frame(joints_a, &self.positions, rates),
-                kinematics.moving_frame(joints_b, &self.positions, rates),
+                kinematics.moving_frame(joints_a, &self.positions, &self.rates),
+                kinematics.moving_frame(joints_b, &self.positions, &self.rates),
             ],
         };
         let rounding = 2.0 * self.placement.rounding;

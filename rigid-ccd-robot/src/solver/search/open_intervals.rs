@@ -1,4 +1,4 @@
-//! Searches segments at constant rates: eight intervals at once, then what they leave open pair by pair.
+//! Searches segments: eight intervals at once, then what they leave open pair by pair.
 
 use super::PathSearch;
 use crate::path::interval::{PathInterval, StepResult};
@@ -48,13 +48,10 @@ pub(crate) struct Intervals {
 impl PathSearch<'_> {
     /// Returns whether the ball test may be used for the current path and goal.
     pub(super) fn uses_ball_test(&self) -> bool {
-        self.goal != Goal::LeastDistance
-            && self.path.segment_count() > 0
-            && self.path.has_constant_rates()
-            && self.periods.is_empty()
+        self.goal != Goal::LeastDistance && self.path.segment_count() > 0 && self.periods.is_empty()
     }
 
-    /// Searches an interval of a path at constant rates for contacts, segment by segment.
+    /// Searches an interval of a path for contacts, segment by segment.
     pub(super) fn search_segments(&mut self, interval: PathInterval) -> StepResult {
         let mut from = interval.from;
         while from < interval.to && from < self.result.end {
@@ -74,7 +71,7 @@ impl PathSearch<'_> {
     }
 
     fn search_segment(&mut self, segment: usize, part: PathInterval) -> StepResult {
-        if !self.ball_test.set_segment(self.path.changes(segment)) {
+        if !self.ball_test.set_segment(&self.path, segment) {
             return self.search(part, None);
         }
         // If a limit is reached, only what is before the segment is searched.
