@@ -44,7 +44,7 @@ use self_pairs::SelfPair;
 use sine::MAX_ANGLE;
 use std::f64::consts::TAU;
 use tested_pair::BallGaps;
-pub(crate) use tested_pair::{BallPair, TestedPair, TouchingPair};
+pub(crate) use tested_pair::{BallPair, Margins, TestedPair, TouchingPair};
 
 /// The number of intervals that are tested at once.
 pub(crate) const LANES: usize = 8;
@@ -216,18 +216,18 @@ impl<'c> BallTest<'c> {
         }
     }
 
-    /// Tests the eight intervals of equal length between two fractions of the segment: for the pairs `among`, or for
-    /// all pairs if it is `None`. The result is in [`BallTest::open_pairs`], and in [`BallTest::touching`] if a pair
+    /// Tests the eight intervals of equal length between two fractions of the segment: for the pairs `among`, with the
+    /// margins that they have, or for all pairs if it is `None`. The result is in [`BallTest::open_pairs`], and in [`BallTest::touching`] if a pair
     /// touches. If it does, some pairs are not tested.
     pub(crate) fn test(
         &mut self,
         path: (&JointPath, usize),
         fractions: [f64; 2],
-        pairs: &PartPairs<'c>,
+        (pairs, margins): (&PartPairs<'c>, Margins),
         among: Option<&[TestedPair]>,
     ) {
         let simd_level = VectorInstructions::Best.simd_level();
-        vectorize!(simd_level, level => self.test_intervals(level, path, fractions, pairs, among));
+        vectorize!(simd_level, level => self.test_intervals(level, path, fractions, (pairs, margins), among));
     }
 
     /// Returns the tested pairs that are open in some interval.
@@ -250,7 +250,7 @@ impl<'c> BallTest<'c> {
         level: L,
         (path, segment): (&JointPath, usize),
         fractions: [f64; 2],
-        pairs: &PartPairs<'c>,
+        pairs: (&PartPairs<'c>, Margins),
         among: Option<&[TestedPair]>,
     ) {
         self.touching = None;
@@ -328,7 +328,7 @@ impl<'c> BallTest<'c> {
     /// Appends the pairs of all links with the obstacles that may come near them, and the pairs of the robot's own
     /// parts. The links farthest from the base come first: they get farther, and touch more often.
     #[inline(always)]
-    fn append_all_pairs<L: Simd>(&mut self, level: L, pairs: &PartPairs<'c>) {
+    fn append_all_pairs<L: Simd>(&mut self, level: L, (pairs, margins): (&PartPairs<'c>, Margins)) {
         let parts = self.cell.parts();
         for frame in (1..self.frames.len()).rev() {
             let Some(ball) = self.balls.ball_around_frame[frame] else {
@@ -346,7 +346,7 @@ impl<'c> BallTest<'c> {
             }
             let radius = (f64::from(farthest) + f64::from(ball.radius)) * ENLARGED
                 + displacement
-                + pairs.largest_obstacle_margin();
+                + margins.of_pair(pairs.largest_obstacle_margin());
             self.near.clear();
             let near = &mut self.near;
             let point = (middle, self.longest_arm);
@@ -359,7 +359,7 @@ impl<'c> BallTest<'c> {
                     if !self.cell.is_allowed(bodies) {
                         let pair = BallPair::Obstacle { part, obstacle };
                         let errors = self.obstacle_errors[obstacle as usize];
-                        let margin = pairs.obstacle_margin(bodies);
+                        let margin = margins.of_pair(pairs.obstacle_margin(bodies));
                         self.tested
                             .push(TestedPair::new(pair, [margin, errors[0], errors[1]]));
                     }
@@ -368,7 +368,7 @@ impl<'c> BallTest<'c> {
         }
         for (index, pair) in (0..).zip(pairs.self_pairs()) {
             let [error, touching_error] = self.self_pair_errors(index as usize);
-            let errors = [pair.margin, error, touching_error];
+            let errors = [margins.of_pair(pair.margin), error, touching_error];
             self.tested
                 .push(TestedPair::new(BallPair::OfRobot(index), errors));
         }

@@ -41,7 +41,7 @@ impl PathSearch<'_> {
         step
     }
 
-    fn check_nonconvex_candidate(
+    pub(super) fn check_nonconvex_candidate(
         &mut self,
         pair: &PartPair,
         bodies: [usize; 2],

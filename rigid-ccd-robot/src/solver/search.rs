@@ -2,10 +2,10 @@
 //!
 //! | step | file |
 //! |---|---|
-//! | for contacts: balls about all links, in eight intervals at once | `ball_test.rs` |
+//! | balls about all links, in eight intervals at once | `ball_test.rs` |
 //! | the intervals in which a pair may still touch | `search/open_intervals.rs` |
 //! | such an interval: steps from the pair's distance forwards and backwards | `search/advance.rs` |
-//! | for the least distance, and for what the steps leave: halving | `search.rs` |
+//! | for what the steps leave: halving | `search.rs` |
 //! | what a few halvings leave: the engine, pair by pair | `engine_candidates.rs` |
 //!
 //! Halving: at the midpoint of an interval the search computes the frames of all links, a displacement bound of each
@@ -452,7 +452,7 @@ impl<'c> PathSearch<'c> {
 
     /// Returns the thresholds of a pair. `drift` bounds how much nearer the pair may be in later periods.
     #[inline(always)]
-    fn thresholds(&self, pair: &PartPair, drift: f64) -> Thresholds {
+    pub(super) fn thresholds(&self, pair: &PartPair, drift: f64) -> Thresholds {
         let tolerance = self.tolerance;
         match self.goal {
             Goal::AnyContact | Goal::FirstContact => Thresholds {
@@ -518,7 +518,7 @@ impl<'c> PathSearch<'c> {
 
     /// Returns whether an upper bound is the least so far, in a search for the least distance.
     #[inline(always)]
-    fn is_nearest(&self, upper: f64) -> bool {
+    pub(super) fn is_nearest(&self, upper: f64) -> bool {
         self.goal == Goal::LeastDistance && upper < self.result.distance_upper_bound
     }
 

@@ -49,7 +49,8 @@ pub(crate) fn random_segment(random: &mut Pcg64, cell: &Cell, ends: [&Vec<f64>; 
         path.set_configurations(cell.kinematics(), &ends);
     } else {
         let velocities = [(); 2].map(|()| random_configuration(random, cell.robot()));
-        let curve = JointCurve::cubic_hermite(&[0.0, 1.0], &ends, &[&velocities[0], &velocities[1]]);
+        let curve =
+            JointCurve::cubic_hermite(&[0.0, 1.0], &ends, &[&velocities[0], &velocities[1]]);
         let curve = curve.unwrap();
         path.set_curve(cell.kinematics(), &curve);
     }

@@ -33,6 +33,14 @@ pub(crate) struct TestedPair {
     pub(crate) least_gap: f32,
 }
 
+/// The distances at which pairs count as touching.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Margins {
+    OfPairs,
+    /// The same for all pairs; infinity leaves all of them open.
+    Common(f64),
+}
+
 /// A pair that touches at the midpoint of an interval.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TouchingPair {
@@ -49,6 +57,17 @@ pub(super) struct BallGaps<L: Simd> {
     pub(super) way: f32x8<L>,
     /// The gap below which the balls inside touch, but for errors.
     pub(super) inner_gap: f32,
+}
+
+impl Margins {
+    /// Returns the margin of a pair whose own margin is `own`.
+    #[inline(always)]
+    pub(super) fn of_pair(self, own: f64) -> f64 {
+        match self {
+            Margins::OfPairs => own,
+            Margins::Common(margin) => margin,
+        }
+    }
 }
 
 impl TestedPair {

@@ -76,7 +76,7 @@ fn a_pair_that_is_not_open_stays_apart_and_a_touching_pair_touches() {
         assert!(test.set_segment(&path, 0));
         let start = random.random_range(0.0..0.5);
         let end = start + random.random_range(1e-4..0.5);
-        test.test((&path, 0), [start, end], &pairs, None);
+        test.test((&path, 0), [start, end], (&pairs, Margins::OfPairs), None);
         if let Some(pair) = test.touching() {
             touching += 1;
             let at = start + (end - start) * (pair.lane as f64 + 0.5) / LANES as f64;

@@ -10,6 +10,7 @@ use super::open_intervals::OpenInterval;
 use crate::cell::part::HullPart;
 use crate::kinematics::moving_frame::MovingFrame;
 use crate::path::interval::{PathInterval, StepResult};
+use crate::solver::Goal;
 use crate::solver::measure::{initial_direction, minkowski_support_vertex};
 use crate::solver::part_pairs::PartPair;
 use crate::tuning::{ADVANCE_ACCURACY, MAX_ADVANCES, PAIRS_BETWEEN_CLOCK_READS};
@@ -36,8 +37,10 @@ struct PlacedPair<'c> {
 enum Advance {
     /// The pair stays farther apart than its margin over the whole interval.
     Free,
-    /// The parts are within margin + tolerance.
+    /// The parts are within margin + tolerance; in a search for the least distance, they touch.
     Near,
+    /// The parts are nearer than the least distance so far, but what they enclose may not be.
+    Undecided,
     /// The pair is free for this long before and after the point.
     Steps { back: f64, forth: f64 },
 }
@@ -95,7 +98,7 @@ impl PathSearch<'_> {
                         left.push([from, at]);
                     }
                 }
-                Advance::Near => {
+                Advance::Near | Advance::Undecided => {
                     left.push([from, to]);
                     break;
                 }
@@ -170,9 +173,10 @@ impl PathSearch<'_> {
         let (path, segment) = (&self.path, open.segment);
         path.interpolate_in_segment(segment, at, &mut self.positions);
         path.rates_in_segment(segment, at, &mut self.rates);
-        let (kinematics, [joints_a, joints_b]) = (self.cell.kinematics(), &self.joints_between);
+        let (cell, [joints_a, joints_b]) = (self.cell, &self.joints_between);
+        let kinematics = cell.kinematics();
         let placed = PlacedPair {
-            parts: [pair.a, pair.b].map(|part| &self.cell.parts()[part as usize]),
+            parts: [pair.a, pair.b].map(|part| &cell.parts()[part as usize]),
             frames: [
                 kinematics.moving_frame(joints_a, &self.positions, &self.rates),
                 kinematics.moving_frame(joints_b, &self.positions, &self.rates),
@@ -184,17 +188,29 @@ impl PathSearch<'_> {
         let speed = placed.speed_bound();
         let displacement =
             half_length * (speed + 0.5 * half_length * acceleration) * (2.0 - ROUNDED_DOWN);
+        let thresholds = self.thresholds(pair, 0.0);
         let until = TerminationBounds {
-            sufficient_lower_bound: displacement + pair.margin + rounding + radii,
-            sufficient_upper_bound: pair.margin + self.tolerance - rounding + radii,
+            sufficient_lower_bound: displacement
+                + thresholds.free_distance_threshold
+                + rounding
+                + radii,
+            sufficient_upper_bound: thresholds.near_distance - rounding + radii,
+        };
+        // In a search for the least distance, the pair's own distance lowers the threshold.
+        let excess = placed.parts[0].excess_over_shape + placed.parts[1].excess_over_shape;
+        let upper_bound = |bounds: &DistanceBounds| bounds.upper - radii + rounding + excess;
+        let least = match self.goal {
+            Goal::LeastDistance if pair.is_convex(cell.parts()) => -self.tolerance,
+            _ => f64::INFINITY,
         };
         let bounds = placed.distance_bounds(
             pair.axis,
             #[inline(always)]
             |bounds: &DistanceBounds| {
-                let gap = bounds.lower - radii - pair.margin;
+                let own = upper_bound(bounds) + least;
+                let threshold = radii + lesser(thresholds.free_distance_threshold, own);
                 until.are_met_by(bounds)
-                    || gap > ADVANCE_ACCURACY * (bounds.upper - radii - pair.margin)
+                    || bounds.lower - threshold > ADVANCE_ACCURACY * (bounds.upper - threshold)
             },
         );
         if bounds.lower > until.sufficient_lower_bound {
@@ -206,8 +222,16 @@ impl PathSearch<'_> {
         if bounds.upper <= until.sufficient_upper_bound {
             return Advance::Near;
         }
-        let gap = bounds.lower - radii - pair.margin - rounding;
+        let upper = upper_bound(&bounds);
+        if pair.is_convex(cell.parts()) && self.is_nearest(upper) {
+            self.record_nearest(pair, at, upper);
+        }
+        let threshold = self.thresholds(pair, 0.0).free_distance_threshold;
+        let gap = bounds.lower - radii - threshold - rounding;
         // Written so that NaN gives no steps.
+        if !(gap > 0.0) && self.goal == Goal::LeastDistance {
+            return Advance::Undecided;
+        }
         if !(gap > 0.0) {
             return Advance::Steps {
                 back: 0.0,

@@ -3,7 +3,7 @@
 use super::PathSearch;
 use crate::path::interval::{PathInterval, StepResult};
 use crate::solver::Goal;
-use crate::solver::ball_test::{BallPair, LANES, TestedPair};
+use crate::solver::ball_test::{BallPair, LANES, Margins, TestedPair};
 use crate::tuning::{MAX_DIVISIONS, MAX_TESTS_BEFORE_CONTACT};
 use ccd_core::order::{greater, lesser};
 use std::ops::ControlFlow::{self, Break, Continue};
@@ -48,10 +48,10 @@ pub(crate) struct Intervals {
 impl PathSearch<'_> {
     /// Returns whether the ball test may be used for the current path and goal.
     pub(super) fn uses_ball_test(&self) -> bool {
-        self.goal != Goal::LeastDistance && self.path.segment_count() > 0 && self.periods.is_empty()
+        self.path.segment_count() > 0 && self.periods.is_empty()
     }
 
-    /// Searches an interval of a path for contacts, segment by segment.
+    /// Searches an interval of a path, segment by segment.
     pub(super) fn search_segments(&mut self, interval: PathInterval) -> StepResult {
         let mut from = interval.from;
         while from < interval.to && from < self.result.end {
@@ -76,7 +76,10 @@ impl PathSearch<'_> {
         }
         // If a limit is reached, only what is before the segment is searched.
         self.searched_until = part.from;
-        let step = self.find_open_intervals(segment, &part)?;
+        let step = match self.find_nearest_pair(segment, &part)? {
+            Break(()) => Break(()),
+            Continue(()) => self.find_open_intervals(segment, &part)?,
+        };
         self.searched_until = f64::INFINITY;
         if step.is_break() {
             return Ok(step);
@@ -98,6 +101,74 @@ impl PathSearch<'_> {
         self.searched_until = f64::INFINITY;
         self.intervals.open = open;
         step
+    }
+
+    /// In a search for the least distance, measures a pair that is probably among the nearest, unless some distance is
+    /// known. Pairs that stay farther apart are then soon left out.
+    fn find_nearest_pair(&mut self, segment: usize, part: &PathInterval) -> StepResult {
+        if self.goal != Goal::LeastDistance || self.result.distance_upper_bound < f64::INFINITY {
+            return Ok(Continue(()));
+        }
+        if self.check_limit(part).is_break() {
+            return Ok(Break(()));
+        }
+        self.test(segment, [part.from, part.to], None);
+        if self.record_touching(part.from, part.to).is_break() {
+            return Ok(Break(()));
+        }
+        let by_gap = |a: &&TestedPair, b: &&TestedPair| {
+            let key = |pair: &TestedPair| (!pair.is_exact(), pair.least_gap);
+            let ((a_is_box, a_gap), (b_is_box, b_gap)) = (key(a), key(b));
+            a_is_box.cmp(&b_is_box).then(a_gap.total_cmp(&b_gap))
+        };
+        let Some(nearest) = self.ball_test.open_pairs().min_by(by_gap) else {
+            return Ok(Continue(()));
+        };
+        let (lane, pair) = (usize::from(nearest.nearest), nearest.pair);
+        let at = middle_of_lane(part.from, part.to, lane);
+        let part_pair = self.ball_test.part_pair(&self.pairs, pair);
+        if !part_pair.is_convex(self.cell.parts()) {
+            let bodies = part_pair.body_indices(self.cell.parts());
+            return self.check_nonconvex_candidate(&part_pair, bodies, at);
+        }
+        self.search_open_interval(&OpenInterval {
+            pair,
+            segment,
+            from: at,
+            to: at,
+            nearest: at,
+            gap: nearest.least_gap,
+            halvings: 0,
+        })
+    }
+
+    /// Runs the ball test over eight intervals, for the pairs `among` or for all.
+    fn test(&mut self, segment: usize, [from, to]: [f64; 2], among: Option<Range<usize>>) {
+        let start = segment as f64;
+        let margins = match self.goal {
+            Goal::AnyContact | Goal::FirstContact => Margins::OfPairs,
+            Goal::LeastDistance => {
+                Margins::Common(self.result.distance_upper_bound - self.tolerance)
+            }
+        };
+        self.ball_test.test(
+            (&self.path, segment),
+            [from - start, to - start],
+            (&self.pairs, margins),
+            among.map(|range| &self.intervals.pairs[range]),
+        );
+        let pair_count = self.ball_test.tested_pair_count();
+        self.stop_condition
+            .add_work(1 + pair_count as u64 / LANES as u64);
+    }
+
+    /// Records the contact that the ball test has proven, if there is one.
+    fn record_touching(&mut self, from: f64, to: f64) -> ControlFlow<()> {
+        let Some(touching) = self.ball_test.touching() else {
+            return Continue(());
+        };
+        let pair = self.ball_test.part_pair(&self.pairs, touching.pair);
+        self.record_contact(&pair, middle_of_lane(from, to, touching.lane), 0.0)
     }
 
     /// Tests the intervals of a segment, and collects what stays open.
@@ -144,25 +215,10 @@ impl PathSearch<'_> {
 
     /// Tests eight intervals. Divides those in which a ball gets far, and collects the others that are open.
     fn test_intervals(&mut self, segment: usize, tested: &UntestedIntervals) -> ControlFlow<()> {
-        let start = segment as f64;
-        let among = tested.pairs.clone();
-        self.ball_test.test(
-            (&self.path, segment),
-            [tested.from - start, tested.to - start],
-            &self.pairs,
-            among.map(|range| &self.intervals.pairs[range]),
-        );
-        let pair_count = self.ball_test.tested_pair_count();
-        self.stop_condition
-            .add_work(1 + pair_count as u64 / LANES as u64);
-        let boundary = |lane: usize| match lane {
-            LANES => tested.to,
-            _ => tested.from + (tested.to - tested.from) * (lane as f64 / LANES as f64),
-        };
-        let middle = |lane: usize| 0.5 * (boundary(lane) + boundary(lane + 1));
-        if let Some(touching) = self.ball_test.touching() {
-            let pair = self.ball_test.part_pair(&self.pairs, touching.pair);
-            self.record_contact(&pair, middle(touching.lane), 0.0)?;
+        self.test(segment, [tested.from, tested.to], tested.pairs.clone());
+        let boundary = |lane: usize| lane_boundary(tested.from, tested.to, lane);
+        if self.ball_test.touching().is_some() {
+            self.record_touching(tested.from, tested.to)?;
             // Some pairs were not compared before the contact.
             return self.test_before_contact(tested);
         }
@@ -199,11 +255,15 @@ impl PathSearch<'_> {
                     segment,
                     from: boundary(lane),
                     to: boundary(lane + 1),
-                    nearest: middle(if lanes >> pair.nearest & 1 == 1 {
-                        usize::from(pair.nearest)
-                    } else {
-                        lane
-                    }),
+                    nearest: middle_of_lane(
+                        tested.from,
+                        tested.to,
+                        if lanes >> pair.nearest & 1 == 1 {
+                            usize::from(pair.nearest)
+                        } else {
+                            lane
+                        },
+                    ),
                     gap: pair.least_gap,
                     halvings: 3 * (tested.divisions + 1),
                 };
@@ -225,6 +285,18 @@ impl PathSearch<'_> {
         }
         Continue(())
     }
+}
+
+/// Returns where one of eight intervals begins; for the number 8, where the last one ends.
+fn lane_boundary(from: f64, to: f64, lane: usize) -> f64 {
+    match lane {
+        LANES => to,
+        _ => from + (to - from) * (lane as f64 / LANES as f64),
+    }
+}
+
+fn middle_of_lane(from: f64, to: f64, lane: usize) -> f64 {
+    0.5 * (lane_boundary(from, to, lane) + lane_boundary(from, to, lane + 1))
 }
 
 /// Adds an open interval. If the pair has an adjacent interval, both are merged.
