@@ -2,6 +2,7 @@
 
 pub(crate) mod interval;
 pub(crate) mod joint_path;
+pub(crate) mod lanes;
 
 use crate::cell::Cell;
 use crate::error::PathError;

@@ -115,3 +115,7 @@ pub(crate) const MAX_TESTS_BEFORE_CONTACT: u32 = 2;
 /// Distances in tables, and distances from which steps along an open interval begin, are measured to within this fraction.
 pub(crate) const TABLE_ACCURACY: f64 = 0.9;
 pub(crate) const ADVANCE_ACCURACY: f64 = 0.9;
+
+/// The largest number of segments at constant rates that are tested together. The segments after a contact are tested in
+/// vain.
+pub(crate) const MAX_SEGMENTS_AT_ONCE: f64 = 64.0;

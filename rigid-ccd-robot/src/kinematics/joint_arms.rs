@@ -68,10 +68,10 @@ impl JointArms {
     /// `ω̇ × y`, by at most `r² ρ + 2 |r| |ẏ| + |ṙ| ρ`. A prismatic joint adds `|r|` to the speed, and `|ṙ|` to the
     /// second derivative.
     #[inline]
-    pub(crate) fn acceleration_bound(&self, motions: &[JointMotion]) -> f64 {
+    pub(crate) fn acceleration_bound(&self, motion: impl Fn(usize) -> JointMotion) -> f64 {
         let (mut speed, mut acceleration, mut travel) = (0.0, 0.0, 0.0);
         for arm in &self.0 {
-            let motion = &motions[arm.joint];
+            let motion = motion(arm.joint);
             if arm.is_prismatic {
                 speed += motion.rate;
                 acceleration += motion.acceleration;
@@ -85,6 +85,22 @@ impl JointArms {
             }
         }
         acceleration * ROUNDING_FACTOR
+    }
+
+    /// Bounds how far the points get if each joint deviates by at most some amount.
+    #[inline]
+    pub(crate) fn displacement_bound(&self, deviations: &[f64], motions: &[JointMotion]) -> f64 {
+        let (mut displacement, mut travel) = (0.0, 0.0);
+        for arm in &self.0 {
+            let deviation = deviations[arm.joint];
+            if arm.is_prismatic {
+                displacement += deviation;
+                travel += motions[arm.joint].position;
+            } else {
+                displacement += deviation * (arm.length + travel);
+            }
+        }
+        displacement * ROUNDING_FACTOR
     }
 
     /// Returns the revolute joints with the lengths of their arms; `None` if there is a prismatic joint.

@@ -23,6 +23,17 @@ impl PathInterval {
         }
     }
 
+    /// Returns an interval within a segment, as if halving the segment had led to it.
+    pub(crate) fn within_segment(from: f64, to: f64) -> Self {
+        let halvings = -(to - from).log2();
+        PathInterval {
+            from,
+            to,
+            // A cast of a negative number gives 0.
+            halvings: halvings.round() as u32,
+        }
+    }
+
     /// Returns the midpoint, in segments. It is rounded down to a configuration if the interval is longer than a
     /// segment.
     pub(crate) fn middle(&self) -> f64 {

@@ -1,11 +1,13 @@
-//! The first test of a segment: eight intervals at once, in f32.
+//! The first test of a path: eight intervals at once, in f32.
 //!
 //! | step | file |
 //! |---|---|
 //! | balls that cover the links, made once a robot | `cell/cover.rs` |
+//! | the motion in eight intervals | `path/lanes.rs`, `ball_test/intervals.rs` |
 //! | the frames of all links at the midpoints of eight intervals, with velocities | `ball_test/frames.rs`, `sine.rs` |
 //! | the obstacles that a ball around each link may meet in any of the intervals | `obstacles.rs` |
 //! | for each ball, the distances of its center, and how far the center gets | `ball_test.rs` |
+//! | the result for a pair | `tested_pair.rs` |
 //! | links against links: tables of distances, and balls against balls | `self_pairs.rs`, `distance_table.rs` |
 //! | bounds of rounding errors | `error.rs` |
 //!
@@ -18,6 +20,7 @@
 mod distance_table;
 mod error;
 mod frames;
+mod intervals;
 mod obstacles;
 mod placed_balls;
 mod self_pairs;
@@ -30,26 +33,21 @@ use crate::cell::ball_model::BallModel;
 use crate::cell::cover::Covers;
 use crate::kinematics::joint_arms::{JointArms, JointMotion};
 use crate::path::joint_path::JointPath;
-use crate::tuning::MAX_BALL_TEST_ERROR;
+use crate::path::lanes::{LANES, Lanes};
 use ccd_core::fearless_simd::{Simd, f32x8};
 use ccd_core::order::greater;
 use ccd_core::schedule::VectorInstructions;
 use ccd_core::simd::{Vec3x8, splat};
 use ccd_core::vectorize;
-use error::{ENLARGED, ErrorSources, LaneErrors};
+use error::{ENLARGED, LaneErrors};
 use frames::{LaneFrame, LaneJoint, place_frames};
 use obstacles::Obstacles;
 use placed_balls::{LaneBall, LaneBalls, PlacedBall};
 use self_pairs::SelfPair;
-use sine::MAX_ANGLE;
-use std::f64::consts::TAU;
 use tested_pair::BallGaps;
 pub(crate) use tested_pair::{BallPair, Margins, TestedPair, TouchingPair};
 
-/// The number of intervals that are tested at once.
-pub(crate) const LANES: usize = 8;
-
-/// Tests eight intervals of a segment at once.
+/// Tests eight intervals of a path at once.
 pub(crate) struct BallTest<'c> {
     cell: &'c Cell,
     joints: Vec<LaneJoint>,
@@ -58,18 +56,28 @@ pub(crate) struct BallTest<'c> {
     self_pairs: Vec<SelfPair>,
     /// The joints between frames and their ancestors: first for each frame and the base, then others for pairs.
     arms: Vec<JointArms>,
-    // For the current path and segment:
-    motions: Vec<JointMotion>,
+    // For the current path:
     /// A bound of the distance of any point of a robot's part from the base and from any joint axis.
     longest_arm: f64,
     pose_rounding: f64,
+    // For the current intervals:
+    /// The segment that contains all of them, if there is one.
+    segment: Option<usize>,
+    /// Bounds of the motions of all joints in the segment, or of their motions along chords.
+    motions: Vec<JointMotion>,
+    /// Bounds of the deviations of all joints from these motions.
+    deviations: Vec<f64>,
+    /// The intervals whose midpoint belongs to the path, as bits.
+    exact_lanes: u8,
     errors: LaneErrors,
     /// For each obstacle the errors of gaps, and of distances that prove a contact.
     obstacle_errors: Vec<[f64; 2]>,
-    /// For each of `arms`, a bound of the second derivatives of positions.
-    accelerations: Vec<f64>,
-    // For the current intervals:
+    /// For each of `arms`, a bound of the second derivatives of positions, and of displacements by deviations.
+    motion_bounds: Vec<[f64; 2]>,
     half_length: f64,
+    /// For each joint, its positions at the ends of all intervals.
+    ends: Vec<[f64; LANES + 1]>,
+    configuration: Vec<f64>,
     positions: Vec<[f32; LANES]>,
     rates: Vec<[f32; LANES]>,
     frames: Vec<LaneFrame>,
@@ -119,14 +127,19 @@ impl<'c> BallTest<'c> {
             balls: LaneBalls::new(&model.covers, robot_parts, &to_lane_frames),
             obstacles: Obstacles::new(&cell.parts()[robot_parts.len()..], robot_parts.len()),
             self_pairs,
+            segment: None,
             motions: Vec::new(),
+            deviations: Vec::new(),
+            exact_lanes: 0,
             longest_arm: 0.0,
             pose_rounding: 0.0,
             errors: LaneErrors::default(),
             obstacle_errors: Vec::new(),
-            accelerations: Vec::new(),
+            motion_bounds: Vec::new(),
             arms,
             half_length: 0.0,
+            ends: vec![[0.0; LANES + 1]; joints.len()],
+            configuration: Vec::new(),
             positions: vec![[0.0; LANES]; joints.len()],
             rates: vec![[0.0; LANES]; joints.len()],
             frames: vec![LaneFrame::BASE; frame_count],
@@ -139,68 +152,20 @@ impl<'c> BallTest<'c> {
         }
     }
 
-    /// Sets the path. `longest_arm` bounds the distance of any point of a moving part from the base and from any joint
-    /// axis, `pose_rounding` the error of poses in f64.
-    pub(crate) fn set_path(&mut self, longest_arm: f64, pose_rounding: f64) {
-        self.longest_arm = greater(longest_arm, self.balls.static_reach);
-        self.pose_rounding = pose_rounding;
-    }
-
-    /// Sets the segment. Returns whether the test can be used for it: not if a joint turns very often, and not if
-    /// rounding errors in f32 are large.
-    pub(crate) fn set_segment(&mut self, path: &JointPath, segment: usize) -> bool {
-        let joints = 0..self.joints.len();
-        self.motions.clear();
-        self.motions
-            .extend(joints.map(|joint| path.joint_motion(segment, joint)));
-        let sources = ErrorSources {
-            longest_arm: self.longest_arm,
-            pose_rounding: self.pose_rounding,
-            motions: &self.motions,
-        };
-        let kinematics = self.cell.kinematics();
-        self.errors = LaneErrors::new(kinematics, &sources);
-        let mut joints = kinematics.joints().iter().zip(&self.motions);
-        let is_slow =
-            joints.all(|(joint, motion)| joint.is_prismatic || motion.rate < MAX_ANGLE - TAU);
-        // Written so that NaN is refused.
-        if !(is_slow && self.errors.position < MAX_BALL_TEST_ERROR * self.balls.largest_radius) {
-            return false;
-        }
-        let (reach, position_error) = (self.longest_arm, self.errors.position);
-        let errors = self.obstacles.all.iter().map(|obstacle| {
-            let error = obstacle.error(reach);
-            [error, obstacle.touching_error(error + position_error)]
-        });
-        self.obstacle_errors.clear();
-        self.obstacle_errors.extend(errors);
-        if path.has_constant_rates() {
-            let (_, changes) = path.starts_and_changes(segment);
-            for (rates, &change) in self.rates.iter_mut().zip(changes) {
-                *rates = [change as f32; LANES];
-            }
-        }
-        let motions = &self.motions;
-        let accelerations = self
-            .arms
-            .iter()
-            .map(|arms| arms.acceleration_bound(motions));
-        self.accelerations.clear();
-        self.accelerations.extend(accelerations);
-        true
-    }
-
-    /// Returns bounds of the motion of both parts of a pair relative to their common ancestor frame, for the current
-    /// segment.
-    pub(crate) fn acceleration_bound(&self, pair: BallPair) -> f64 {
+    /// Returns a bound of the second derivatives of both parts' positions relative to their common ancestor frame, in a
+    /// segment of the path.
+    pub(crate) fn acceleration_bound(
+        &self,
+        (path, segment): (&JointPath, usize),
+        pair: BallPair,
+    ) -> f64 {
+        let motion = |joint: usize| path.joint_motion(segment, joint);
+        let of_arms = |arms: usize| self.arms[arms].acceleration_bound(motion);
         match pair {
-            BallPair::Obstacle { part, .. } => {
-                let frame = self.cell.parts()[part as usize].frame;
-                self.accelerations[frame]
-            }
+            BallPair::Obstacle { part, .. } => of_arms(self.cell.parts()[part as usize].frame),
             BallPair::OfRobot(index) => {
                 let [a, b] = self.self_pairs[index as usize].arms;
-                self.accelerations[a] + self.accelerations[b]
+                of_arms(a) + of_arms(b)
             }
         }
     }
@@ -216,18 +181,18 @@ impl<'c> BallTest<'c> {
         }
     }
 
-    /// Tests the eight intervals of equal length between two fractions of the segment: for the pairs `among`, with the
-    /// margins that they have, or for all pairs if it is `None`. The result is in [`BallTest::open_pairs`], and in [`BallTest::touching`] if a pair
-    /// touches. If it does, some pairs are not tested.
+    /// Tests eight intervals: for the pairs `among`, with the margins that they have, or for all pairs if it is `None`.
+    /// The result is in [`BallTest::open_pairs`], and in [`BallTest::touching`] if a pair touches. If it does, some pairs
+    /// are not tested. Returns whether the test can be used for the intervals.
+    #[must_use]
     pub(crate) fn test(
         &mut self,
-        path: (&JointPath, usize),
-        fractions: [f64; 2],
+        (path, lanes): (&JointPath, &Lanes),
         (pairs, margins): (&PartPairs<'c>, Margins),
         among: Option<&[TestedPair]>,
-    ) {
+    ) -> bool {
         let simd_level = VectorInstructions::Best.simd_level();
-        vectorize!(simd_level, level => self.test_intervals(level, path, fractions, (pairs, margins), among));
+        vectorize!(simd_level, level => self.test_intervals(level, (path, lanes), (pairs, margins), among))
     }
 
     /// Returns the tested pairs that are open in some interval.
@@ -248,14 +213,15 @@ impl<'c> BallTest<'c> {
     fn test_intervals<L: Simd>(
         &mut self,
         level: L,
-        (path, segment): (&JointPath, usize),
-        fractions: [f64; 2],
+        (path, lanes): (&JointPath, &Lanes),
         pairs: (&PartPairs<'c>, Margins),
         among: Option<&[TestedPair]>,
-    ) {
+    ) -> bool {
         self.touching = None;
         self.tested.clear();
-        self.set_intervals(path, segment, fractions);
+        if !self.set_intervals(path, lanes) {
+            return false;
+        }
         place_frames(
             level,
             &self.joints,
@@ -281,48 +247,7 @@ impl<'c> BallTest<'c> {
                 }
             }
         }
-    }
-
-    /// Computes the positions of all joints at the midpoints of eight intervals.
-    #[inline(always)]
-    fn set_intervals(&mut self, path: &JointPath, segment: usize, [from, to]: [f64; 2]) {
-        // A lane's interval may be rounded by a few units of f64.
-        self.half_length = (to - from) / (2 * LANES) as f64 * ENLARGED + 4.0 * f64::EPSILON;
-        let (middle, step) = (0.5 * (from + to), (to - from) / (2 * LANES) as f64);
-        let offset = |lane: usize| step * ((2 * lane) as f64 - (LANES - 1) as f64);
-        if !path.has_constant_rates() {
-            return self.set_curved_intervals(path, segment, |lane| middle + offset(lane));
-        }
-        let (starts, changes) = path.starts_and_changes(segment);
-        for (k, joint) in self.cell.kinematics().joints().iter().enumerate() {
-            let mut center = starts[k] + middle * changes[k];
-            if !joint.is_prismatic {
-                center -= TAU * (center / TAU).round();
-            }
-            for (lane, position) in self.positions[k].iter_mut().enumerate() {
-                *position = (center + changes[k] * offset(lane)) as f32;
-            }
-        }
-    }
-
-    /// Computes the positions and rates of all joints at the midpoints of eight intervals of a curve.
-    #[inline(never)]
-    fn set_curved_intervals(
-        &mut self,
-        path: &JointPath,
-        segment: usize,
-        midpoint: impl Fn(usize) -> f64,
-    ) {
-        for (k, joint) in self.cell.kinematics().joints().iter().enumerate() {
-            for lane in 0..LANES {
-                let [mut position, rate] = path.position_and_rate(segment, midpoint(lane), k);
-                if !joint.is_prismatic {
-                    position -= TAU * (position / TAU).round();
-                }
-                self.positions[k][lane] = position as f32;
-                self.rates[k][lane] = rate as f32;
-            }
-        }
+        true
     }
 
     /// Appends the pairs of all links with the obstacles that may come near them, and the pairs of the robot's own
@@ -409,11 +334,12 @@ impl<'c> BallTest<'c> {
     }
 
     /// Returns a bound of the displacement of a point in half an interval, without the part that follows from its
-    /// velocity: by the second derivative and by errors. `arms` is an index of `accelerations`.
+    /// velocity: by the second derivative, deviations and errors. `arms` is an index of `motion_bounds`.
     #[inline(always)]
     fn displacement_beyond_velocity(&self, arms: usize) -> f64 {
-        let (h, acceleration) = (self.half_length, self.accelerations[arms]);
-        (0.5 * h * h * acceleration + h * self.errors.velocity + self.errors.position) * ENLARGED
+        let (h, [acceleration, deviation]) = (self.half_length, self.motion_bounds[arms]);
+        let displacement = 0.5 * h * h * acceleration + deviation;
+        (displacement + h * self.errors.velocity + self.errors.position) * ENLARGED
     }
 
     /// Returns how far balls get in half an interval, from their velocities and from the rest of the displacement.
@@ -427,7 +353,7 @@ impl<'c> BallTest<'c> {
     #[inline(always)]
     fn record<L: Simd>(&mut self, level: L, index: usize, gaps: BallGaps<L>) {
         let tested = &mut self.tested[index];
-        let touching = tested.record(level, gaps);
+        let touching = tested.record(level, gaps) & self.exact_lanes;
         if touching != 0 {
             let lane = touching.trailing_zeros() as usize;
             if self.touching.is_none_or(|known| lane < known.lane) {

@@ -273,7 +273,7 @@ impl<'c> PathSearch<'c> {
         self.begin_question(goal, &interval);
         self.start_contacts.clear();
         let step = if self.uses_ball_test() {
-            self.search_segments(interval)?
+            self.search_stretches(interval)?
         } else {
             self.search(interval, None)?
         };
@@ -349,10 +349,16 @@ impl<'c> PathSearch<'c> {
     /// Ends the search if a limit is reached. Everything before the interval and before the engine's candidates has
     /// been searched.
     pub(super) fn check_limit(&mut self, interval: &PathInterval) -> ControlFlow<()> {
+        self.check_limit_before(interval.from)
+    }
+
+    /// Ends the search if a limit is reached. Everything before `from`, before the current stretch or open interval, and
+    /// before the engine's candidates has been searched.
+    pub(super) fn check_limit_before(&mut self, from: f64) -> ControlFlow<()> {
         let Some(limit) = self.stop_condition.reached_limit() else {
             return Continue(());
         };
-        let searched_until = lesser(interval.from, self.searched_until);
+        let searched_until = lesser(from, self.searched_until);
         let searched_until = lesser(searched_until, self.engine_candidates.earliest_start());
         self.result.limit_reached = Some((limit, searched_until));
         self.result.lower = 0.0;

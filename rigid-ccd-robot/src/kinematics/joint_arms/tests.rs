@@ -31,7 +31,7 @@ fn no_point_accelerates_faster() {
             let mut ancestor = part.frame;
             loop {
                 let arms = JointArms::new(kinematics, (part.frame, part.points()), ancestor);
-                let bound = arms.acceleration_bound(&motions);
+                let bound = arms.acceleration_bound(|joint| motions[joint]);
                 let mut fastest: f64 = 0.0;
                 for k in 0..10 {
                     let at = 0.05 + 0.09 * f64::from(k);

@@ -210,8 +210,9 @@ impl BallTest<'_> {
     #[inline(always)]
     fn displacement_of_pair(&self, [one, other]: [usize; 2]) -> f64 {
         let h = self.half_length;
-        let accelerations = [one, other].map(|k| self.accelerations[k]);
-        let displacement = 0.5 * h * h * (accelerations[0] + accelerations[1])
+        let [a, b] = [one, other].map(|arms| self.motion_bounds[arms]);
+        let displacement = 0.5 * h * h * (a[0] + b[0])
+            + (a[1] + b[1])
             + 3.0 * h * self.errors.velocity
             + 2.0 * self.errors.position;
         displacement * ENLARGED
@@ -222,7 +223,8 @@ impl BallTest<'_> {
     fn displacement_in_table(&self, table: &LaneTable) -> f64 {
         let mut displacement = 0.0;
         for axis in &table.axes {
-            let turn = self.motions[axis.joint].rate * self.half_length;
+            let turn =
+                self.motions[axis.joint].rate * self.half_length + self.deviations[axis.joint];
             let angle_error = self.errors.angle
                 + CELL_NUMBER_ERROR * UNIT_ROUNDOFF * greater(TAU, f64::from(axis.low.abs()));
             displacement += (turn + 2.0 * angle_error) * axis.arm_length;

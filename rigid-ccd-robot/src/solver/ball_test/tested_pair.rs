@@ -1,7 +1,7 @@
 //! A pair of parts, and the intervals in which it may touch.
 
-use super::LANES;
 use super::error::ENLARGED;
+use crate::path::lanes::LANES;
 use crate::tuning::MIN_DIVIDED_DISPLACEMENT;
 use ccd_core::fearless_simd::{Simd, f32x8, prelude::*};
 use ccd_core::simd::splat;

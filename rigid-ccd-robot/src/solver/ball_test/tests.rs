@@ -25,6 +25,24 @@ fn distance(cell: &Cell, frames: &[Frame], [a, b]: [usize; 2]) -> f64 {
     bound_distance(vertex, DVec3::X, |_| false).upper - parts[0].radius - parts[1].radius
 }
 
+/// Returns a path of up to 30 segments, of unequal lengths, that strays from the straight way.
+fn random_walk(random: &mut Pcg64, cell: &Cell, from: Vec<f64>, to: &[f64]) -> JointPath {
+    let mut all = vec![from];
+    let count = random.random_range(2..30);
+    let stray = [0.0, 1e-3, 0.02][random.random_range(0..3)];
+    for k in 1..=count {
+        let fraction = (f64::from(k) + random.random_range(0.0..0.5)) / f64::from(count);
+        let mut next = configuration_between(&all[0], to, fraction);
+        for position in &mut next {
+            *position += stray * random.random_range(-1.0..1.0);
+        }
+        all.push(next);
+    }
+    let mut path = JointPath::default();
+    path.set_configurations(cell.kinematics(), &all);
+    path
+}
+
 /// For each pair of parts that is checked, the intervals in which the test leaves it open.
 fn open_intervals(
     cell: &Cell,
@@ -54,8 +72,8 @@ fn open_intervals(
 #[test]
 fn a_pair_that_is_not_open_stays_apart_and_a_touching_pair_touches() {
     let mut random = Pcg64::seed_from_u64(31);
-    let (mut free, mut open, mut touching, mut least) = (0, 0, 0, f64::INFINITY);
-    for round in 0..150 {
+    let (mut free, mut long, mut open, mut touching, mut least) = (0, 0, 0, 0, f64::INFINITY);
+    for round in 0..200 {
         let mut cell = random_cell(&mut random);
         if round % 5 == 0 {
             let pose = crate::test_robots::random_pose(&mut random, 2.0);
@@ -69,17 +87,21 @@ fn a_pair_that_is_not_open_stays_apart_and_a_touching_pair_touches() {
         let from = random_configuration(&mut random, cell.robot());
         let to = random_configuration(&mut random, cell.robot());
         let to = configuration_between(&from, &to, [0.02, 0.2, 1.0, 4.0][round % 4]);
-        let path = random_segment(&mut random, &cell, [&from, &to]);
+        let path = match round % 3 {
+            0 => random_walk(&mut random, &cell, from, &to),
+            _ => random_segment(&mut random, &cell, [&from, &to]),
+        };
         placement.begin(&cell, &path);
         let arm = largest_arm(cell.kinematics(), placement.coordinates, path.magnitudes());
         test.set_path(arm, placement.rounding);
-        assert!(test.set_segment(&path, 0));
-        let start = random.random_range(0.0..0.5);
-        let end = start + random.random_range(1e-4..0.5);
-        test.test((&path, 0), [start, end], (&pairs, Margins::OfPairs), None);
+        let length = path.segment_count() as f64;
+        let start = length * random.random_range(0.0..0.5);
+        let end = start + length * random.random_range(1e-4..0.5);
+        let lanes = Lanes::dividing(start, end);
+        assert!(test.test((&path, &lanes), (&pairs, Margins::OfPairs), None));
         if let Some(pair) = test.touching() {
             touching += 1;
-            let at = start + (end - start) * (pair.lane as f64 + 0.5) / LANES as f64;
+            let at = lanes.middle(pair.lane);
             let both = test.part_pair(&pairs, pair.pair);
             placement.place_frames(&cell, &path, at);
             let parts = [both.a as usize, both.b as usize];
@@ -87,16 +109,18 @@ fn a_pair_that_is_not_open_stays_apart_and_a_touching_pair_touches() {
             assert!(found <= 1e-9, "{found}");
             continue;
         }
-        for (parts, lanes) in open_intervals(&cell, &test, &pairs) {
+        for (parts, left_open) in open_intervals(&cell, &test, &pairs) {
             for lane in 0..LANES {
-                if lanes >> lane & 1 == 1 {
+                if left_open >> lane & 1 == 1 {
                     open += 1;
                     continue;
                 }
                 free += 1;
-                for k in 0..=4 {
-                    let fraction = (lane as f64 + 0.25 * f64::from(k)) / LANES as f64;
-                    placement.place_frames(&cell, &path, start + (end - start) * fraction);
+                long += usize::from(lanes.segment(lane).is_none());
+                let [from, to] = lanes.ends(lane);
+                for k in 0..=8 {
+                    let at = from + (to - from) * f64::from(k) / 8.0;
+                    placement.place_frames(&cell, &path, at);
                     let found = distance(&cell, &placement.frames, parts);
                     assert!(found > margin, "{found} {parts:?}");
                     least = lesser(least, found - margin);
@@ -105,8 +129,8 @@ fn a_pair_that_is_not_open_stays_apart_and_a_touching_pair_touches() {
         }
     }
     assert!(
-        free > 2000 && open > 300 && touching > 20,
-        "{free} {open} {touching}"
+        free > 2000 && long > 300 && open > 300 && touching > 20,
+        "{free} {long} {open} {touching}"
     );
     // The bounds are not so loose that they would hold by chance.
     assert!(least < 0.02, "{least}");
@@ -129,6 +153,8 @@ fn what_f32_cannot_resolve_is_refused() {
         (10.0, f64::NAN, false),
     ] {
         test.set_path(longest_arm, rounding);
-        assert_eq!(test.set_segment(&path, 0), is_usable);
+        let lanes = Lanes::dividing(0.0, 1.0);
+        let pairs = (&pairs, Margins::OfPairs);
+        assert_eq!(test.test((&path, &lanes), pairs, None), is_usable);
     }
 }

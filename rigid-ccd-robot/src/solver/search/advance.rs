@@ -49,7 +49,9 @@ impl PathSearch<'_> {
     /// Searches the interval of a pair. What many steps do not decide is left to the search by halving.
     pub(super) fn search_open_interval(&mut self, open: &OpenInterval) -> StepResult {
         let mut pair = self.ball_test.part_pair(&self.pairs, open.pair);
-        let acceleration = self.ball_test.acceleration_bound(open.pair);
+        let acceleration = self
+            .ball_test
+            .acceleration_bound((&self.path, open.segment), open.pair);
         self.set_joints_between(&pair);
         let mut left = std::mem::take(&mut self.unsearched);
         left.clear();
@@ -63,12 +65,7 @@ impl PathSearch<'_> {
                 continue;
             }
             count += 1;
-            let whole = PathInterval {
-                from,
-                to,
-                halvings: open.halvings,
-            };
-            if count % PAIRS_BETWEEN_CLOCK_READS == 1 && self.check_limit(&whole).is_break() {
+            if count % PAIRS_BETWEEN_CLOCK_READS == 1 && self.check_limit_before(from).is_break() {
                 step = Break(());
                 break;
             }
@@ -118,30 +115,21 @@ impl PathSearch<'_> {
         }
         let result = match step {
             Break(()) => Ok(Break(())),
-            Continue(()) => self.search_rest(&pair, open, &left),
+            Continue(()) => self.search_rest(&pair, &left),
         };
         self.unsearched = left;
         result
     }
 
     /// Searches by halving what is left of a pair's interval, the earliest first.
-    fn search_rest(
-        &mut self,
-        pair: &PartPair,
-        open: &OpenInterval,
-        left: &[[f64; 2]],
-    ) -> StepResult {
+    fn search_rest(&mut self, pair: &PartPair, left: &[[f64; 2]]) -> StepResult {
         for &[from, to] in left.iter().rev() {
             if !(from < to) || from >= self.result.end {
                 continue;
             }
             self.candidates.clear();
             self.candidates.push(*pair);
-            let interval = PathInterval {
-                from,
-                to,
-                halvings: open.halvings,
-            };
+            let interval = PathInterval::within_segment(from, to);
             if self.search(interval, Some(0..1))?.is_break() {
                 return Ok(Break(()));
             }

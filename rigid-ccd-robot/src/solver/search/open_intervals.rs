@@ -1,10 +1,11 @@
-//! Searches segments: eight intervals at once, then what they leave open pair by pair.
+//! Searches a path: eight intervals at once, then what they leave open pair by pair.
 
 use super::PathSearch;
 use crate::path::interval::{PathInterval, StepResult};
+use crate::path::lanes::{LANES, Lanes};
 use crate::solver::Goal;
-use crate::solver::ball_test::{BallPair, LANES, Margins, TestedPair};
-use crate::tuning::{MAX_DIVISIONS, MAX_TESTS_BEFORE_CONTACT};
+use crate::solver::ball_test::{BallPair, Margins, TestedPair};
+use crate::tuning::{MAX_DIVISIONS, MAX_SEGMENTS_AT_ONCE, MAX_TESTS_BEFORE_CONTACT};
 use ccd_core::order::{greater, lesser};
 use std::ops::ControlFlow::{self, Break, Continue};
 use std::ops::Range;
@@ -20,8 +21,6 @@ pub(super) struct OpenInterval {
     pub(super) nearest: f64,
     /// The least lower bound of the distance that is known.
     gap: f32,
-    /// The number of halvings of the segment that led to the interval.
-    pub(super) halvings: u32,
 }
 
 /// Eight intervals that are still to be tested.
@@ -36,7 +35,7 @@ struct UntestedIntervals {
     pairs: Option<Range<usize>>,
 }
 
-/// The intervals of a segment that are still to be searched.
+/// The intervals that are still to be searched.
 #[derive(Debug, Default)]
 pub(crate) struct Intervals {
     untested: Vec<UntestedIntervals>,
@@ -51,18 +50,16 @@ impl PathSearch<'_> {
         self.path.segment_count() > 0 && self.periods.is_empty()
     }
 
-    /// Searches an interval of a path, segment by segment.
-    pub(super) fn search_segments(&mut self, interval: PathInterval) -> StepResult {
+    /// Searches an interval of a path: some segments at a time if they are at constant rates, otherwise one.
+    pub(super) fn search_stretches(&mut self, interval: PathInterval) -> StepResult {
+        let segments = match self.path.has_constant_rates() {
+            true => MAX_SEGMENTS_AT_ONCE,
+            false => 1.0,
+        };
         let mut from = interval.from;
         while from < interval.to && from < self.result.end {
-            let segment = from as usize;
-            let to = lesser(interval.to, (segment + 1) as f64);
-            let part = PathInterval {
-                from,
-                to,
-                halvings: 0,
-            };
-            if self.search_segment(segment, part)?.is_break() {
+            let to = lesser(interval.to, from.floor() + segments);
+            if self.search_stretch([from, to])?.is_break() {
                 return Ok(Break(()));
             }
             from = to;
@@ -70,15 +67,12 @@ impl PathSearch<'_> {
         Ok(Continue(()))
     }
 
-    fn search_segment(&mut self, segment: usize, part: PathInterval) -> StepResult {
-        if !self.ball_test.set_segment(&self.path, segment) {
-            return self.search(part, None);
-        }
-        // If a limit is reached, only what is before the segment is searched.
-        self.searched_until = part.from;
-        let step = match self.find_nearest_pair(segment, &part)? {
+    fn search_stretch(&mut self, [from, to]: [f64; 2]) -> StepResult {
+        // If a limit is reached, only what is before the stretch is searched.
+        self.searched_until = from;
+        let step = match self.find_nearest_pair([from, to])? {
             Break(()) => Break(()),
-            Continue(()) => self.find_open_intervals(segment, &part)?,
+            Continue(()) => self.find_open_intervals([from, to])?,
         };
         self.searched_until = f64::INFINITY;
         if step.is_break() {
@@ -105,15 +99,18 @@ impl PathSearch<'_> {
 
     /// In a search for the least distance, measures a pair that is probably among the nearest, unless some distance is
     /// known. Pairs that stay farther apart are then soon left out.
-    fn find_nearest_pair(&mut self, segment: usize, part: &PathInterval) -> StepResult {
+    fn find_nearest_pair(&mut self, [from, to]: [f64; 2]) -> StepResult {
         if self.goal != Goal::LeastDistance || self.result.distance_upper_bound < f64::INFINITY {
             return Ok(Continue(()));
         }
-        if self.check_limit(part).is_break() {
+        if self.check_limit_before(from).is_break() {
             return Ok(Break(()));
         }
-        self.test(segment, [part.from, part.to], None);
-        if self.record_touching(part.from, part.to).is_break() {
+        let lanes = Lanes::dividing(from, to);
+        if !self.test(&lanes, None) {
+            return Ok(Continue(()));
+        }
+        if self.record_touching(&lanes).is_break() {
             return Ok(Break(()));
         }
         let by_gap = |a: &&TestedPair, b: &&TestedPair| {
@@ -124,8 +121,7 @@ impl PathSearch<'_> {
         let Some(nearest) = self.ball_test.open_pairs().min_by(by_gap) else {
             return Ok(Continue(()));
         };
-        let (lane, pair) = (usize::from(nearest.nearest), nearest.pair);
-        let at = middle_of_lane(part.from, part.to, lane);
+        let (pair, at) = (nearest.pair, lanes.middle(usize::from(nearest.nearest)));
         let part_pair = self.ball_test.part_pair(&self.pairs, pair);
         if !part_pair.is_convex(self.cell.parts()) {
             let bodies = part_pair.body_indices(self.cell.parts());
@@ -133,46 +129,44 @@ impl PathSearch<'_> {
         }
         self.search_open_interval(&OpenInterval {
             pair,
-            segment,
+            segment: (at as usize).min(self.segment_count() - 1),
             from: at,
             to: at,
             nearest: at,
             gap: nearest.least_gap,
-            halvings: 0,
         })
     }
 
-    /// Runs the ball test over eight intervals, for the pairs `among` or for all.
-    fn test(&mut self, segment: usize, [from, to]: [f64; 2], among: Option<Range<usize>>) {
-        let start = segment as f64;
+    /// Runs the ball test over eight intervals, for the pairs `among` or for all. Returns whether it can be used.
+    fn test(&mut self, lanes: &Lanes, among: Option<Range<usize>>) -> bool {
         let margins = match self.goal {
             Goal::AnyContact | Goal::FirstContact => Margins::OfPairs,
             Goal::LeastDistance => {
                 Margins::Common(self.result.distance_upper_bound - self.tolerance)
             }
         };
-        self.ball_test.test(
-            (&self.path, segment),
-            [from - start, to - start],
+        let is_usable = self.ball_test.test(
+            (&self.path, lanes),
             (&self.pairs, margins),
             among.map(|range| &self.intervals.pairs[range]),
         );
         let pair_count = self.ball_test.tested_pair_count();
         self.stop_condition
             .add_work(1 + pair_count as u64 / LANES as u64);
+        is_usable
     }
 
     /// Records the contact that the ball test has proven, if there is one.
-    fn record_touching(&mut self, from: f64, to: f64) -> ControlFlow<()> {
+    fn record_touching(&mut self, lanes: &Lanes) -> ControlFlow<()> {
         let Some(touching) = self.ball_test.touching() else {
             return Continue(());
         };
         let pair = self.ball_test.part_pair(&self.pairs, touching.pair);
-        self.record_contact(&pair, middle_of_lane(from, to, touching.lane), 0.0)
+        self.record_contact(&pair, lanes.middle(touching.lane), 0.0)
     }
 
-    /// Tests the intervals of a segment, and collects what stays open.
-    fn find_open_intervals(&mut self, segment: usize, part: &PathInterval) -> StepResult {
+    /// Tests the intervals of a stretch, and collects what stays open.
+    fn find_open_intervals(&mut self, [from, to]: [f64; 2]) -> StepResult {
         let Intervals {
             untested,
             pairs,
@@ -182,29 +176,26 @@ impl PathSearch<'_> {
         open.clear();
         untested.clear();
         untested.push(UntestedIntervals {
-            from: part.from,
-            to: part.to,
+            from,
+            to,
             divisions: 0,
             tests_before_contact: 0,
             pairs: None,
         });
         while let Some(next) = self.intervals.untested.pop() {
-            if self.check_limit(part).is_break() {
+            if self.check_limit_before(from).is_break() {
                 return Ok(Break(()));
             }
             if next.from >= self.result.end {
                 continue;
             }
-            let step = if next.tests_before_contact > MAX_TESTS_BEFORE_CONTACT {
-                self.candidates.clear();
-                let interval = PathInterval {
-                    from: next.from,
-                    to: next.to,
-                    halvings: 3 * next.divisions,
-                };
-                self.search(interval, None)?
+            let lanes = Lanes::dividing(next.from, next.to);
+            let step = if next.tests_before_contact > MAX_TESTS_BEFORE_CONTACT
+                || !self.test(&lanes, next.pairs.clone())
+            {
+                self.search_by_halving([next.from, next.to])?
             } else {
-                self.test_intervals(segment, &next)
+                self.evaluate_test(&next, &lanes)
             };
             if step.is_break() {
                 return Ok(step);
@@ -213,25 +204,46 @@ impl PathSearch<'_> {
         Ok(Continue(()))
     }
 
-    /// Tests eight intervals. Divides those in which a ball gets far, and collects the others that are open.
-    fn test_intervals(&mut self, segment: usize, tested: &UntestedIntervals) -> ControlFlow<()> {
-        self.test(segment, [tested.from, tested.to], tested.pairs.clone());
-        let boundary = |lane: usize| lane_boundary(tested.from, tested.to, lane);
+    /// Searches an interval for all pairs without the ball test, segment by segment.
+    fn search_by_halving(&mut self, [mut from, to]: [f64; 2]) -> StepResult {
+        while from < to {
+            let end = lesser(to, from.floor() + 1.0);
+            self.candidates.clear();
+            let interval = PathInterval::within_segment(from, end);
+            if self.search(interval, None)?.is_break() {
+                return Ok(Break(()));
+            }
+            from = end;
+        }
+        Ok(Continue(()))
+    }
+
+    /// Divides those of the tested intervals that have parts of several segments or in which a ball gets far, and
+    /// collects the others that are open.
+    fn evaluate_test(&mut self, tested: &UntestedIntervals, lanes: &Lanes) -> ControlFlow<()> {
         if self.ball_test.touching().is_some() {
-            self.record_touching(tested.from, tested.to)?;
+            self.record_touching(lanes)?;
             // Some pairs were not compared before the contact.
             return self.test_before_contact(tested);
         }
         // Shorter intervals help little against boxes around bodies.
-        let divides = |pair: &&TestedPair| match tested.divisions {
+        let divides = |pair: &TestedPair| match tested.divisions {
             0 => true,
             divisions => divisions < MAX_DIVISIONS && pair.is_exact(),
         };
-        let far_moving = self.ball_test.open_pairs().filter(divides);
-        let divided = far_moving.fold(0, |lanes, pair| lanes | pair.far_moving);
+        let in_several = |lane: &usize| lanes.segment(*lane).is_none();
+        let long = (0..LANES).filter(in_several);
+        let long = long.fold(0, |lanes, lane| lanes | 1 << lane);
+        let mut divided = 0;
+        for pair in self.ball_test.open_pairs() {
+            divided |= pair.open & long;
+            if divides(pair) {
+                divided |= pair.far_moving;
+            }
+        }
         // The earliest interval is tested next.
         for lane in (0..LANES).rev() {
-            let (from, to) = (boundary(lane), boundary(lane + 1));
+            let [from, to] = lanes.ends(lane);
             if divided >> lane & 1 == 0 || !(from < to) {
                 continue;
             }
@@ -242,30 +254,27 @@ impl PathSearch<'_> {
             self.intervals.untested.push(UntestedIntervals {
                 from,
                 to,
-                divisions: tested.divisions + 1,
+                divisions: tested.divisions + u32::from(lanes.only_segment().is_some()),
                 tests_before_contact: tested.tests_before_contact,
                 pairs: Some(first..self.intervals.pairs.len()),
             });
         }
         for pair in self.ball_test.open_pairs() {
-            let lanes = pair.open & !divided;
-            for lane in (0..LANES).filter(|lane| lanes >> lane & 1 == 1) {
+            let is_open = |lane: usize| (pair.open & !divided) >> lane & 1 == 1;
+            for lane in 0..LANES {
+                let (true, Some(segment)) = (is_open(lane), lanes.segment(lane)) else {
+                    continue;
+                };
+                let [from, to] = lanes.ends(lane);
+                let nearest = usize::from(pair.nearest);
+                let is_beside = is_open(nearest) && lanes.segment(nearest) == Some(segment);
                 let interval = OpenInterval {
                     pair: pair.pair,
                     segment,
-                    from: boundary(lane),
-                    to: boundary(lane + 1),
-                    nearest: middle_of_lane(
-                        tested.from,
-                        tested.to,
-                        if lanes >> pair.nearest & 1 == 1 {
-                            usize::from(pair.nearest)
-                        } else {
-                            lane
-                        },
-                    ),
+                    from,
+                    to,
+                    nearest: lanes.middle(if is_beside { nearest } else { lane }),
                     gap: pair.least_gap,
-                    halvings: 3 * (tested.divisions + 1),
                 };
                 add_or_merge(&mut self.intervals.open, interval);
             }
@@ -287,28 +296,18 @@ impl PathSearch<'_> {
     }
 }
 
-/// Returns where one of eight intervals begins; for the number 8, where the last one ends.
-fn lane_boundary(from: f64, to: f64, lane: usize) -> f64 {
-    match lane {
-        LANES => to,
-        _ => from + (to - from) * (lane as f64 / LANES as f64),
-    }
-}
-
-fn middle_of_lane(from: f64, to: f64, lane: usize) -> f64 {
-    0.5 * (lane_boundary(from, to, lane) + lane_boundary(from, to, lane + 1))
-}
-
 /// Adds an open interval. If the pair has an adjacent interval, both are merged.
 fn add_or_merge(open: &mut Vec<OpenInterval>, interval: OpenInterval) {
     let mut same = open.iter_mut().filter(|known| {
-        known.pair == interval.pair && known.from <= interval.to && interval.from <= known.to
+        known.pair == interval.pair
+            && known.segment == interval.segment
+            && known.from <= interval.to
+            && interval.from <= known.to
     });
     match same.next() {
         Some(known) => {
             known.from = lesser(known.from, interval.from);
             known.to = greater(known.to, interval.to);
-            known.halvings = known.halvings.min(interval.halvings);
             if interval.gap < known.gap {
                 (known.gap, known.nearest) = (interval.gap, interval.nearest);
             }
