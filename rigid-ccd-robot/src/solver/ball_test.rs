@@ -281,7 +281,7 @@ impl<'c> BallTest<'c> {
                 for &obstacle in &self.near {
                     let both = [part as usize, self.obstacles.all[obstacle as usize].part];
                     let bodies = both.map(|part| parts[part].owner);
-                    if !self.cell.is_allowed(bodies) {
+                    if !self.cell.is_allowed(bodies) && !pairs.is_ignored(bodies) {
                         let pair = BallPair::Obstacle { part, obstacle };
                         let errors = self.obstacle_errors[obstacle as usize];
                         let margin = margins.of_pair(pairs.obstacle_margin(bodies));
@@ -292,6 +292,9 @@ impl<'c> BallTest<'c> {
             }
         }
         for (index, pair) in (0..).zip(pairs.self_pairs()) {
+            if pairs.is_ignored(pair.body_indices(parts)) {
+                continue;
+            }
             let [error, touching_error] = self.self_pair_errors(index as usize);
             let errors = [margins.of_pair(pair.margin), error, touching_error];
             self.tested

@@ -30,6 +30,8 @@ pub(crate) struct PartPairs<'c> {
     displacement_index_by_part: Vec<Option<u32>>,
     /// The pairs of the robot's own parts.
     self_pairs: Vec<PartPair>,
+    /// The pairs of bodies that are left out of the current question.
+    pub(crate) ignored: Vec<[usize; 2]>,
     /// The margin of pairs without a clearance.
     margin: f64,
     /// A distance that is added to the margins of all pairs.
@@ -101,6 +103,7 @@ impl<'c> PartPairs<'c> {
                 .collect(),
             obstacle_boxes: ObstacleBoxes::new(&cell.parts()[cell.robot_part_count()..]),
             self_pairs: own.collect(),
+            ignored: Vec::new(),
             cell,
             margin: 0.0,
             margin_increase: 0.0,
@@ -113,6 +116,12 @@ impl<'c> PartPairs<'c> {
     /// Returns the checked pairs of the robot's own parts.
     pub(crate) fn self_pairs(&self) -> &[PartPair] {
         &self.self_pairs
+    }
+
+    /// Returns whether a pair of bodies is left out of the current question.
+    #[inline(always)]
+    pub(crate) fn is_ignored(&self, bodies: [usize; 2]) -> bool {
+        !self.ignored.is_empty() && self.ignored.contains(&bodies)
     }
 
     /// Returns an upper bound of the margins of all pairs with an obstacle.
@@ -189,14 +198,15 @@ impl<'c> PartPairs<'c> {
                 .for_each_meeting(center - extents, center + extents, |obstacle| {
                     let b = robot_parts + obstacle;
                     let bodies = [part.owner, parts[b].owner];
-                    if cell.is_allowed(bodies) {
+                    if cell.is_allowed(bodies) || self.is_ignored(bodies) {
                         return;
                     }
                     let margin = self.obstacle_margin(bodies);
                     pairs.push(PartPair::new([a, b], [index, None], margin));
                 });
         }
-        pairs.extend_from_slice(&self.self_pairs);
+        let own = self.self_pairs.iter().copied();
+        pairs.extend(own.filter(|pair| !self.is_ignored(pair.body_indices(parts))));
     }
 
     /// Appends all pairs of parts of two bodies, with the given margin.

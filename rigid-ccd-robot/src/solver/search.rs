@@ -271,15 +271,19 @@ impl<'c> PathSearch<'c> {
         interval: PathInterval,
     ) -> Result<(), Error> {
         self.begin_question(goal, &interval);
-        self.start_contacts.clear();
-        let step = if self.uses_ball_test() {
-            self.search_stretches(interval)?
-        } else {
-            self.search(interval, None)?
-        };
-        match step {
+        match self.search_all_pairs(interval)? {
             Break(()) => Ok(()),
             Continue(()) => self.decide_engine_candidates(),
+        }
+    }
+
+    /// Searches an interval for all pairs, except for those in contact at the start. Leaves some to the engine.
+    pub(super) fn search_all_pairs(&mut self, interval: PathInterval) -> StepResult {
+        if self.uses_ball_test() {
+            self.search_stretches(interval)
+        } else {
+            self.candidates.clear();
+            self.search(interval, None)
         }
     }
 
@@ -289,6 +293,8 @@ impl<'c> PathSearch<'c> {
         self.searched_until = f64::INFINITY;
         self.stop_condition.begin_search(interval);
         self.result = PathSearchResult::NOTHING_FOUND;
+        self.start_contacts.clear();
+        self.pairs.ignored.clear();
         self.candidates.clear();
         self.engine_candidates.clear();
     }
@@ -501,17 +507,6 @@ impl<'c> PathSearch<'c> {
         let allowance = allowance + 2.0 * self.placement.rounding;
         self.pairs
             .append_candidates(&self.placement, allowance, &mut self.candidates);
-        if !self.start_contacts.is_empty() {
-            let mut count = first;
-            for k in first..self.candidates.len() {
-                let pair = self.candidates[k];
-                if !self.is_start_contact(&pair) {
-                    self.candidates[count] = pair;
-                    count += 1;
-                }
-            }
-            self.candidates.truncate(count);
-        }
         if self.goal == Goal::LeastDistance {
             // The nearest pairs come first. Their distances then exclude others by bounding volumes alone.
             for pair in &mut self.candidates[first..] {

@@ -56,7 +56,6 @@ impl PathSearch<'_> {
     pub(crate) fn answer_leaving_start(&mut self, goal: Goal) -> Result<(), Error> {
         let whole = self.whole_path_interval();
         self.begin_question(goal, &whole);
-        self.start_contacts.clear();
         let step = self.find_start_contacts()?;
         if step.is_break() || self.follow_start_contacts()?.is_break() {
             return Ok(());
@@ -67,8 +66,7 @@ impl PathSearch<'_> {
                 .map(|contact| contact.from)
                 .fold(f64::INFINITY, lesser)
         };
-        self.candidates.clear();
-        let step = self.search(whole, None)?;
+        let step = self.search_all_pairs(whole)?;
         if step.is_continue() {
             self.decide_engine_candidates()?;
         }
@@ -90,15 +88,6 @@ impl PathSearch<'_> {
             searched?;
         }
         Ok(())
-    }
-
-    /// Returns whether a pair is in contact at the start and searched separately.
-    #[inline(always)]
-    pub(super) fn is_start_contact(&self, pair: &PartPair) -> bool {
-        let bodies = pair.body_indices(self.cell.parts());
-        self.start_contacts
-            .iter()
-            .any(|contact| contact.bodies == bodies)
     }
 
     /// Returns whether a question about any contact is answered.
@@ -127,7 +116,9 @@ impl PathSearch<'_> {
             ..self.whole_path_interval()
         };
         for pair in pairs {
-            if self.is_start_contact(pair) || self.is_apart_at_start(pair) {
+            if self.pairs.is_ignored(pair.body_indices(self.cell.parts()))
+                || self.is_apart_at_start(pair)
+            {
                 continue;
             }
             if self.check_limit(&start).is_break() {
@@ -165,6 +156,7 @@ impl PathSearch<'_> {
                 contact.tolerance = 0.0;
             }
             self.start_contacts.push(contact);
+            self.pairs.ignored.push(contact.bodies);
         }
         Ok(Continue(()))
     }
