@@ -106,6 +106,10 @@ pub(crate) const MAX_DIVISIONS: u32 = 2;
 /// The largest error of the ball test in f32, as a fraction of the largest ball. Beyond it the test proves little.
 pub(crate) const MAX_BALL_TEST_ERROR: f64 = 0.05;
 
+/// The radius of the largest ball, in metres, below which the ball test is not used: squares of such lengths in f32 are
+/// still far from the least numbers.
+pub(crate) const MIN_BALL_TEST_RADIUS: f64 = 1e-9;
+
 /// The largest number of steps along a pair's open interval before the search by halving takes over.
 pub(crate) const MAX_ADVANCES: usize = 48;
 
@@ -115,6 +119,13 @@ pub(crate) const MAX_TESTS_BEFORE_CONTACT: u32 = 2;
 /// Distances in tables, and distances from which steps along an open interval begin, are measured to within this fraction.
 pub(crate) const TABLE_ACCURACY: f64 = 0.9;
 pub(crate) const ADVANCE_ACCURACY: f64 = 0.9;
+
+/// The same for a least distance, whose gaps are often as small as the tolerance.
+pub(crate) const LEAST_DISTANCE_ACCURACY: f64 = 0.5;
+
+/// The factor by which the distance grows within which the nearest pair is sought. It begins with the largest ball's
+/// radius.
+pub(crate) const NEAREST_PAIR_GROWTH: f64 = 4.0;
 
 /// The largest number of segments at constant rates that are tested together. The segments after a contact are tested in
 /// vain.

@@ -41,6 +41,12 @@ pub(crate) struct Covers {
     pub(crate) enclosing_balls: Vec<CoverBall>,
 }
 
+/// The surface of a part's hull.
+struct Surface {
+    polygons: Vec<Vec<DVec3>>,
+    can_be_cut: bool,
+}
+
 /// A convex piece of a part: the polygons of its surface without the cuts.
 struct Piece<'p> {
     part: &'p HullPart,
@@ -54,12 +60,14 @@ struct Piece<'p> {
 impl Covers {
     /// Covers parts by about [`BALLS_PER_PART`] balls each, more for large parts than for small ones.
     pub(crate) fn of_parts(parts: &[HullPart]) -> Self {
-        let surfaces: Vec<Vec<Vec<DVec3>>> = parts.iter().map(surface_polygons).collect();
-        let whole = |(index, polygons): (usize, &Vec<Vec<DVec3>>)| {
-            Piece::new(&parts[index], index, polygons.clone())
+        let surfaces: Vec<Surface> = parts.iter().map(Surface::of_part).collect();
+        let whole = |(index, surface): (usize, &Surface)| {
+            let mut piece = Piece::new(&parts[index], index, surface.polygons.clone());
+            piece.can_be_cut &= surface.can_be_cut;
+            piece
         };
         let mut pieces: Vec<Piece<'_>> = surfaces.iter().enumerate().map(whole).collect();
-        let ball_of = |piece: &Piece<'_>| piece.ball(&surfaces[piece.part_index]);
+        let ball_of = |piece: &Piece<'_>| piece.ball(&surfaces[piece.part_index].polygons);
         let enclosing_balls = pieces.iter().map(ball_of).collect();
         let max_count = (BALLS_PER_PART * parts.len() as f64) as usize;
         while pieces.len() < max_count {
@@ -137,15 +145,31 @@ impl<'p> Piece<'p> {
     }
 }
 
-/// Returns the polygons of the surface of a part's hull. If the hull cannot be computed, all corners are one polygon.
-fn surface_polygons(part: &HullPart) -> Vec<Vec<DVec3>> {
-    let corners = part.points();
-    match ccd_decomp::convex_hull(corners) {
-        Ok(hull) if hull.facets.iter().count() > 0 => {
-            let polygon = |facet: &[u32]| facet.iter().map(|&k| hull.points[k as usize]).collect();
-            hull.facets.iter().map(polygon).collect()
+impl Surface {
+    fn of_part(part: &HullPart) -> Self {
+        let corners = part.points();
+        let all = vec![corners.to_vec()];
+        match ccd_decomp::convex_hull(corners) {
+            Ok(hull) if hull.facets.iter().count() > 0 => {
+                let polygon =
+                    |facet: &[u32]| facet.iter().map(|&k| hull.points[k as usize]).collect();
+                Surface {
+                    polygons: hull.facets.iter().map(polygon).collect(),
+                    // The balls of a half-space are not used.
+                    can_be_cut: part.plane.is_none(),
+                }
+            }
+            // All points are on a line.
+            Ok(_) => Surface {
+                polygons: all,
+                can_be_cut: true,
+            },
+            // Without the edges of the hull, halves would not cover it.
+            Err(_) => Surface {
+                polygons: all,
+                can_be_cut: false,
+            },
         }
-        _ => vec![corners.to_vec()],
     }
 }
 

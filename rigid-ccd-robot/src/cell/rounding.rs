@@ -56,15 +56,6 @@ impl CoordinateBounds {
     }
 }
 
-/// Bounds the error of any part's point that is computed through the link frames along a path.
-pub(crate) fn point_error_bound(
-    kinematics: &Kinematics,
-    coordinates: CoordinateBounds,
-    magnitudes: impl Iterator<Item = Magnitude> + Clone,
-) -> f64 {
-    pose_rounding(kinematics, coordinates, magnitudes).of_points
-}
-
 /// Bounds the errors of points and of directions that are computed through the link frames.
 pub(crate) fn pose_rounding(
     kinematics: &Kinematics,

@@ -23,13 +23,12 @@ impl PathInterval {
         }
     }
 
-    /// Returns an interval within a segment, as if halving the segment had led to it.
-    pub(crate) fn within_segment(from: f64, to: f64) -> Self {
-        let halvings = -(to - from).log2();
+    /// Returns an interval within a segment of a path, as if halving the path had led to it.
+    pub(crate) fn within_segment(from: f64, to: f64, segments: usize) -> Self {
+        let halvings = (segments as f64 / (to - from)).log2();
         PathInterval {
             from,
             to,
-            // A cast of a negative number gives 0.
             halvings: halvings.round() as u32,
         }
     }

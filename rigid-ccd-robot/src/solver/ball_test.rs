@@ -152,6 +152,20 @@ impl<'c> BallTest<'c> {
         }
     }
 
+    /// Returns a bound of the sum of the speeds that all joints give to any point, in a segment of the path.
+    pub(crate) fn speed_bound(&self, (path, segment): (&JointPath, usize)) -> f64 {
+        let joints = self.cell.kinematics().joints().iter().enumerate();
+        let speeds = joints.map(|(k, joint)| {
+            let arm = if joint.is_prismatic {
+                1.0
+            } else {
+                self.longest_arm
+            };
+            path.joint_motion(segment, k).rate * arm
+        });
+        speeds.sum()
+    }
+
     /// Returns a bound of the second derivatives of both parts' positions relative to their common ancestor frame, in a
     /// segment of the path.
     pub(crate) fn acceleration_bound(
@@ -198,6 +212,16 @@ impl<'c> BallTest<'c> {
     /// Returns the tested pairs that are open in some interval.
     pub(crate) fn open_pairs(&self) -> impl Iterator<Item = &TestedPair> {
         self.tested.iter().filter(|pair| pair.open != 0)
+    }
+
+    /// Returns the radius of the largest ball.
+    pub(crate) fn largest_radius(&self) -> f64 {
+        self.balls.largest_radius
+    }
+
+    /// Returns a bound of the distance of any point from the base.
+    pub(crate) fn reach(&self) -> f64 {
+        self.longest_arm
     }
 
     pub(crate) fn touching(&self) -> Option<TouchingPair> {

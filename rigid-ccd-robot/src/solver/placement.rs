@@ -2,7 +2,7 @@
 
 use super::displacement::DisplacementBounds;
 use crate::cell::Cell;
-use crate::cell::rounding::{CoordinateBounds, point_error_bound};
+use crate::cell::rounding::{CoordinateBounds, pose_rounding};
 use crate::path::interval::PathInterval;
 use crate::path::joint_path::JointPath;
 use rigid_ccd::glam::DQuat;
@@ -15,6 +15,8 @@ pub(crate) struct Placement {
     pub(crate) displacement_bounds: DisplacementBounds,
     /// An upper bound of the error of a point that is computed with the frames.
     pub(crate) rounding: f64,
+    /// An upper bound of the error of a unit vector that is computed with the frames.
+    pub(crate) rounding_of_directions: f64,
     /// Bounds of the coordinates of all parts.
     pub(crate) coordinates: CoordinateBounds,
     positions: Vec<f64>,
@@ -27,6 +29,7 @@ impl Placement {
             frames: Vec::new(),
             displacement_bounds: DisplacementBounds::new(cell.kinematics(), cell.parts()),
             rounding: 0.0,
+            rounding_of_directions: 0.0,
             coordinates: CoordinateBounds::of_parts(cell.parts()),
             positions: Vec::new(),
             max_deviation_by_joint: Vec::new(),
@@ -35,7 +38,9 @@ impl Placement {
 
     /// Sets the path. Must be called before its intervals are placed.
     pub(crate) fn begin(&mut self, cell: &Cell, path: &JointPath) {
-        self.rounding = point_error_bound(cell.kinematics(), self.coordinates, path.magnitudes());
+        let rounding = pose_rounding(cell.kinematics(), self.coordinates, path.magnitudes());
+        self.rounding = rounding.of_points;
+        self.rounding_of_directions = rounding.of_directions;
     }
 
     /// Computes the frames at the midpoint of an interval, and the displacement bounds.

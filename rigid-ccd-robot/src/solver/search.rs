@@ -5,7 +5,7 @@
 //! | balls about all links, in eight intervals at once | `ball_test.rs` |
 //! | the intervals in which a pair may still touch | `search/open_intervals.rs` |
 //! | such an interval: steps from the pair's distance forwards and backwards | `search/advance.rs` |
-//! | for what the steps leave: halving | `search.rs` |
+//! | what the steps leave, by bodies: halving | `search/undecided.rs`, `search.rs` |
 //! | what a few halvings leave: the engine, pair by pair | `engine_candidates.rs` |
 //!
 //! Halving: at the midpoint of an interval the search computes the frames of all links, a displacement bound of each
@@ -16,6 +16,7 @@
 mod advance;
 mod open_intervals;
 mod start;
+mod undecided;
 
 use super::Goal;
 use super::ball_test::BallTest;
@@ -47,6 +48,7 @@ use rigid_ccd::{Error, Settings, Solver};
 use start::StartContact;
 use std::ops::ControlFlow::{self, Break, Continue};
 use std::ops::Range;
+use undecided::Undecided;
 
 /// Searches paths, and reuses its memory from search to search.
 pub(crate) struct PathSearch<'c> {
@@ -67,6 +69,7 @@ pub(crate) struct PathSearch<'c> {
     positions: Vec<f64>,
     rates: Vec<f64>,
     unsearched: Vec<[f64; 2]>,
+    undecided: Undecided,
     /// The point of the path up to which all pairs are searched, while intervals are searched pair by pair; infinity
     /// otherwise.
     searched_until: f64,
@@ -144,6 +147,7 @@ impl<'c> PathSearch<'c> {
             positions: Vec::new(),
             rates: Vec::new(),
             unsearched: Vec::new(),
+            undecided: Undecided::default(),
             searched_until: f64::INFINITY,
             cell,
             compares_any: cell.check_any_compared(),

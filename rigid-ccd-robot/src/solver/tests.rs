@@ -2,6 +2,7 @@
 
 mod bounds;
 mod budgets;
+mod extremes;
 mod features;
 mod history;
 mod hostile_edges;

@@ -47,10 +47,11 @@ impl HullPart {
             axes,
             half_extents: half_extents + DVec3::splat(tolerance),
             radius: self.radius,
+            // Two points at the same corner are less than √(1 + 1 + 4) tolerances apart.
             is_exact: self.is_convex
                 && self.points.len() == corner_count
                 && along_axes.iter().all(is_corner)
-                && are_distinct(&along_axes, 2.0 * tolerance),
+                && are_distinct(&along_axes, 4.0 * tolerance),
         }
     }
 }

@@ -70,7 +70,9 @@ impl LaneErrors {
                 + SUM_ERROR * UNIT_ROUNDOFF * travel
                 + 2.0 * sources.pose_rounding,
             // The velocity is the sum of the products of rates, axes and arms, whose errors are both that of rotations.
-            velocity: 4.0 * rotation * (turning * arm + sliding),
+            // The error of angles in f64 is in `pose_rounding`.
+            velocity: 4.0 * rotation * (turning * arm + sliding)
+                + 2.0 * turning * sources.pose_rounding,
             angle,
         }
     }

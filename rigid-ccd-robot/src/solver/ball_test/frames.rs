@@ -9,7 +9,8 @@ use rigid_ccd::glam::{DMat3, DQuat, DVec3, Vec3};
 /// The x, y and z of eight vectors.
 pub(super) type Rows = [[f32; 8]; 3];
 
-/// Entries of rotations that are nearer to 0 than this count as 0.
+/// Entries of rotations that are nearer to 0 than this count as 0, and coordinates of origins that are nearer to 0 than
+/// this times their length.
 const LEAST_ENTRY: f64 = 1e-12;
 
 /// A joint, with constants in f32. The frame after the joint is turned so that its z axis is the joint's axis.
@@ -59,11 +60,14 @@ impl LaneJoint {
 
     fn new(joint: &MovingJoint, [to_parent, to_own]: [&DMat3; 2]) -> Self {
         let axes = *to_parent * joint.rotation_at_zero() * to_own.transpose();
-        let entry = |x: f64| if x.abs() < LEAST_ENTRY { 0.0 } else { x as f32 };
+        let origin = *to_parent * joint.origin;
+        let rounded = |x: f64, least: f64| if x.abs() < least { 0.0 } else { x as f32 };
+        let coordinate = |x: f64| rounded(x, LEAST_ENTRY * origin.length());
+        let entry = |x: f64| rounded(x, LEAST_ENTRY);
         LaneJoint {
             parent: joint.parent,
             is_prismatic: joint.is_prismatic,
-            origin: (*to_parent * joint.origin).to_array().map(entry),
+            origin: origin.to_array().map(coordinate),
             axes: axes.to_cols_array_2d().map(|column| column.map(entry)),
         }
     }

@@ -10,7 +10,7 @@ use super::sine::MAX_ANGLE;
 use crate::kinematics::joint_arms::JointMotion;
 use crate::path::joint_path::JointPath;
 use crate::path::lanes::{LANES, Lanes};
-use crate::tuning::MAX_BALL_TEST_ERROR;
+use crate::tuning::{MAX_BALL_TEST_ERROR, MIN_BALL_TEST_RADIUS};
 use ccd_core::order::greater;
 use std::f64::consts::TAU;
 
@@ -74,8 +74,11 @@ impl BallTest<'_> {
         let mut joints = kinematics.joints().iter().zip(motions);
         let is_slow =
             joints.all(|(joint, motion)| joint.is_prismatic || motion.rate < MAX_ANGLE - TAU);
+        let largest_radius = self.balls.largest_radius;
         // Written so that NaN is refused.
-        if !(is_slow && self.errors.position < MAX_BALL_TEST_ERROR * self.balls.largest_radius) {
+        let is_accurate = self.errors.position < MAX_BALL_TEST_ERROR * largest_radius
+            && largest_radius > MIN_BALL_TEST_RADIUS;
+        if !(is_slow && is_accurate) {
             return false;
         }
         let (reach, position_error) = (self.longest_arm, self.errors.position);
@@ -101,8 +104,9 @@ impl BallTest<'_> {
     #[inline(always)]
     fn set_parts_of_segment(&mut self, path: &JointPath, segment: usize, lanes: &Lanes) {
         let [from, to] = [0, LANES].map(|lane| lanes.boundary(lane) - segment as f64);
-        // An interval may be rounded by a few units of f64.
-        self.half_length = (to - from) / (2 * LANES) as f64 * ENLARGED + 4.0 * f64::EPSILON;
+        // The ends of an interval are rounded: by a few units of the segment's number.
+        let rounding = 4.0 * f64::EPSILON * (1 + segment) as f64;
+        self.half_length = (to - from) / (2 * LANES) as f64 * ENLARGED + rounding;
         let (middle, step) = (0.5 * (from + to), (to - from) / (2 * LANES) as f64);
         let offset = |lane: usize| step * ((2 * lane) as f64 - (LANES - 1) as f64);
         if !path.has_constant_rates() {
@@ -175,7 +179,7 @@ impl BallTest<'_> {
     }
 
     /// Bounds how far each joint deviates from the chords. Between two configurations both move at constant rates, so
-    /// the largest deviation is at a configuration.
+    /// the largest deviation is at a configuration. A curve may jump a little between two segments.
     fn set_deviations(&mut self, path: &JointPath, lanes: &Lanes) {
         let rounding = |motion: &JointMotion| CHORD_ERROR * f64::EPSILON * motion.position;
         self.deviations.clear();
@@ -185,14 +189,17 @@ impl BallTest<'_> {
             let [from, to] = lanes.ends(lane);
             self.exact_lanes |= u8::from(lanes.segment(lane).is_some()) << lane;
             let mut waypoint = from.floor() + 1.0;
-            while waypoint < to {
+            while waypoint <= to {
                 let fraction = (waypoint - from) / (to - from);
-                let (positions, _) = path.starts_and_changes(waypoint as usize);
-                for ((deviation, ends), position) in
-                    self.deviations.iter_mut().zip(&self.ends).zip(positions)
-                {
+                let (starts, changes) = path.starts_and_changes(waypoint as usize - 1);
+                let next = (waypoint < to).then(|| path.starts_and_changes(waypoint as usize).0);
+                for (k, ends) in self.ends.iter().enumerate() {
                     let chord = ends[lane] + fraction * (ends[lane + 1] - ends[lane]);
-                    *deviation = greater(*deviation, (position - chord).abs());
+                    let mut deviation = (starts[k] + changes[k] - chord).abs();
+                    if let Some(next) = next {
+                        deviation = greater(deviation, (next[k] - chord).abs());
+                    }
+                    self.deviations[k] = greater(self.deviations[k], deviation);
                 }
                 waypoint += 1.0;
             }

@@ -22,6 +22,7 @@ pub(super) struct LaneBalls {
     /// For each frame a ball around all its parts; `None` if it has none.
     pub(super) ball_around_frame: Vec<Option<LaneBall>>,
     pub(super) parts_by_frame: Vec<Vec<u32>>,
+    /// The radius of the largest ball, half-spaces left out.
     pub(super) largest_radius: f64,
     /// A bound of the coordinates of static parts, half-spaces left out.
     pub(super) static_reach: f64,
@@ -68,6 +69,12 @@ impl LaneBalls {
                 .map(|&part| covers.enclosing_balls[part as usize]);
             Some(lane_ball(&ball_around(&balls.collect::<Vec<_>>())?, frame))
         };
+        let balls_of_parts = parts.iter().zip(covers.first_ball_by_part.windows(2));
+        let largest_radius = balls_of_parts
+            .filter(|(part, _)| part.plane.is_none())
+            .flat_map(|(_, range)| &covers.balls[range[0]..range[1]])
+            .map(|ball| ball.radius)
+            .fold(0.0, greater);
         let static_parts = parts
             .iter()
             .filter(|part| part.frame == 0 && part.plane.is_none());
@@ -83,11 +90,7 @@ impl LaneBalls {
                 .map(around_frame)
                 .collect(),
             parts_by_frame,
-            largest_radius: covers
-                .balls
-                .iter()
-                .map(|ball| ball.radius)
-                .fold(0.0, greater),
+            largest_radius,
         }
     }
 

@@ -7,30 +7,41 @@
 
 use super::PathSearch;
 use super::open_intervals::OpenInterval;
+use super::undecided::UndecidedInterval;
 use crate::cell::part::HullPart;
 use crate::kinematics::moving_frame::MovingFrame;
-use crate::path::interval::{PathInterval, StepResult};
 use crate::solver::Goal;
 use crate::solver::measure::{initial_direction, minkowski_support_vertex};
 use crate::solver::part_pairs::PartPair;
-use crate::tuning::{ADVANCE_ACCURACY, MAX_ADVANCES, PAIRS_BETWEEN_CLOCK_READS};
+use crate::tuning::{
+    ADVANCE_ACCURACY, LEAST_DISTANCE_ACCURACY, MAX_ADVANCES, PAIRS_BETWEEN_CLOCK_READS,
+};
 use ccd_core::order::{greater, lesser};
 use ccd_core::schedule::VectorInstructions;
 use ccd_core::vectorize;
 use ccd_distance_gjk::{DistanceBounds, TerminationBounds, bound_distance};
 use rigid_ccd::glam::DVec3;
-use std::ops::ControlFlow::{Break, Continue};
+use std::ops::ControlFlow::{self, Break, Continue};
 
 /// Shortens steps beyond their rounding errors.
 const ROUNDED_DOWN: f64 = 1.0 - 1e-9;
 
-/// The rounding error of a speed along an axis, as a fraction of the largest speed of any points.
-const SPEED_ERROR: f64 = 1e-12;
+/// The rounding error of a speed, in errors of directions, for each unit of the sum of the speeds that all joints give to
+/// a point: such a speed is a product of an axis, an arm and a direction.
+const SPEED_ERROR: f64 = 4.0;
 
 /// Both parts of a pair at a point of the path, relative to their common ancestor frame.
 struct PlacedPair<'c> {
     parts: [&'c HullPart; 2],
     frames: [MovingFrame; 2],
+}
+
+/// Bounds of a pair's motion in a segment.
+#[derive(Clone, Copy, Debug)]
+struct PairMotion {
+    /// A bound of the second derivatives of both parts' positions relative to their common ancestor frame.
+    acceleration: f64,
+    speed_error: f64,
 }
 
 /// What is known about a pair around a point of the path.
@@ -46,12 +57,11 @@ enum Advance {
 }
 
 impl PathSearch<'_> {
-    /// Searches the interval of a pair. What many steps do not decide is left to the search by halving.
-    pub(super) fn search_open_interval(&mut self, open: &OpenInterval) -> StepResult {
+    /// Searches the interval of a pair. Adds what stays undecided to `undecided`, and returns where that begins; infinity
+    /// if nothing stays undecided.
+    pub(super) fn search_open_interval(&mut self, open: &OpenInterval) -> ControlFlow<(), f64> {
         let mut pair = self.ball_test.part_pair(&self.pairs, open.pair);
-        let acceleration = self
-            .ball_test
-            .acceleration_bound((&self.path, open.segment), open.pair);
+        let motion = self.motion_of_pair(open);
         self.set_joints_between(&pair);
         let mut left = std::mem::take(&mut self.unsearched);
         left.clear();
@@ -83,7 +93,7 @@ impl PathSearch<'_> {
             }
             self.stop_condition.add_work(1);
             let simd_level = VectorInstructions::Best.simd_level();
-            let advance = vectorize!(simd_level, _token => self.advance(&mut pair, open, [from, at, to], acceleration));
+            let advance = vectorize!(simd_level, _token => self.advance(&mut pair, open, [from, at, to], motion));
             match advance {
                 Advance::Free => {}
                 Advance::Near if pair.is_convex(self.cell.parts()) => {
@@ -104,37 +114,42 @@ impl PathSearch<'_> {
                     let earlier = (at - back).next_up();
                     // Written so that NaN is searched again.
                     if !(later >= to) {
-                        left.push([greater(later, from), to]);
+                        left.push([if later > from { later } else { from }, to]);
                     }
                     if !(earlier <= from) {
-                        left.push([from, lesser(earlier, to)]);
+                        left.push([from, if earlier < to { earlier } else { to }]);
                     }
                 }
             }
             at = f64::NAN;
         }
-        let result = match step {
-            Break(()) => Ok(Break(())),
-            Continue(()) => self.search_rest(&pair, &left),
-        };
+        let bodies = pair.body_indices(self.cell.parts());
+        // Written so that NaN stays undecided. An interval without length is measured.
+        let undecided = left.iter().filter(|[from, to]| from != to);
+        let undecided = undecided.map(|&[from, to]| UndecidedInterval {
+            segment: open.segment,
+            bodies,
+            pair,
+            from,
+            to,
+            gap: open.gap,
+        });
+        let earliest = self.undecided.extend(undecided);
         self.unsearched = left;
-        result
+        match step {
+            Continue(()) => Continue(earliest),
+            Break(()) => Break(()),
+        }
     }
 
-    /// Searches by halving what is left of a pair's interval, the earliest first.
-    fn search_rest(&mut self, pair: &PartPair, left: &[[f64; 2]]) -> StepResult {
-        for &[from, to] in left.iter().rev() {
-            if !(from < to) || from >= self.result.end {
-                continue;
-            }
-            self.candidates.clear();
-            self.candidates.push(*pair);
-            let interval = PathInterval::within_segment(from, to);
-            if self.search(interval, Some(0..1))?.is_break() {
-                return Ok(Break(()));
-            }
+    fn motion_of_pair(&self, open: &OpenInterval) -> PairMotion {
+        let segment = (&self.path, open.segment);
+        PairMotion {
+            acceleration: self.ball_test.acceleration_bound(segment, open.pair),
+            speed_error: SPEED_ERROR
+                * self.placement.rounding_of_directions
+                * self.ball_test.speed_bound(segment),
         }
-        Ok(Continue(()))
     }
 
     /// Finds the joints between the common ancestor frame and both parts of a pair, parents first.
@@ -156,7 +171,10 @@ impl PathSearch<'_> {
         pair: &mut PartPair,
         open: &OpenInterval,
         [from, at, to]: [f64; 3],
-        acceleration: f64,
+        PairMotion {
+            acceleration,
+            speed_error,
+        }: PairMotion,
     ) -> Advance {
         let (path, segment) = (&self.path, open.segment);
         path.interpolate_in_segment(segment, at, &mut self.positions);
@@ -173,7 +191,7 @@ impl PathSearch<'_> {
         let rounding = 2.0 * self.placement.rounding;
         let radii = placed.parts[0].radius + placed.parts[1].radius;
         let half_length = greater(at - from, to - at);
-        let speed = placed.speed_bound();
+        let speed = placed.speed_bound() + speed_error;
         let displacement =
             half_length * (speed + 0.5 * half_length * acceleration) * (2.0 - ROUNDED_DOWN);
         let thresholds = self.thresholds(pair, 0.0);
@@ -187,9 +205,11 @@ impl PathSearch<'_> {
         // In a search for the least distance, the pair's own distance lowers the threshold.
         let excess = placed.parts[0].excess_over_shape + placed.parts[1].excess_over_shape;
         let upper_bound = |bounds: &DistanceBounds| bounds.upper - radii + rounding + excess;
-        let least = match self.goal {
-            Goal::LeastDistance if pair.is_convex(cell.parts()) => -self.tolerance,
-            _ => f64::INFINITY,
+        let (least, accuracy) = match self.goal {
+            Goal::LeastDistance if pair.is_convex(cell.parts()) => {
+                (-self.tolerance, LEAST_DISTANCE_ACCURACY)
+            }
+            _ => (f64::INFINITY, ADVANCE_ACCURACY),
         };
         let bounds = placed.distance_bounds(
             pair.axis,
@@ -198,7 +218,7 @@ impl PathSearch<'_> {
                 let own = upper_bound(bounds) + least;
                 let threshold = radii + lesser(thresholds.free_distance_threshold, own);
                 until.are_met_by(bounds)
-                    || bounds.lower - threshold > ADVANCE_ACCURACY * (bounds.upper - threshold)
+                    || bounds.lower - threshold > accuracy * (bounds.upper - threshold)
             },
         );
         if bounds.lower > until.sufficient_lower_bound {
@@ -227,11 +247,11 @@ impl PathSearch<'_> {
             };
         }
         let axis = bounds.axis.normalize();
-        let error = SPEED_ERROR * speed;
-        Advance::Steps {
-            back: step_length(gap, placed.approach_speed(axis, -1.0) + error, acceleration),
-            forth: step_length(gap, placed.approach_speed(axis, 1.0) + error, acceleration),
-        }
+        let [back, forth] = [-1.0, 1.0].map(|sign| {
+            let speed = placed.approach_speed(axis, sign) + speed_error;
+            step_length(gap, speed, acceleration)
+        });
+        Advance::Steps { back, forth }
     }
 }
 
@@ -299,8 +319,10 @@ fn step_length(gap: f64, speed: f64, acceleration: f64) -> f64 {
         2.0 * gap / (speed + root)
     } else if acceleration > 0.0 {
         (root - speed) / acceleration
-    } else {
+    } else if speed <= 0.0 && acceleration == 0.0 {
         f64::INFINITY
+    } else {
+        f64::NAN
     };
     step * ROUNDED_DOWN
 }

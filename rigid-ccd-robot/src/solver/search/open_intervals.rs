@@ -5,7 +5,9 @@ use crate::path::interval::{PathInterval, StepResult};
 use crate::path::lanes::{LANES, Lanes};
 use crate::solver::Goal;
 use crate::solver::ball_test::{BallPair, Margins, TestedPair};
-use crate::tuning::{MAX_DIVISIONS, MAX_SEGMENTS_AT_ONCE, MAX_TESTS_BEFORE_CONTACT};
+use crate::tuning::{
+    MAX_DIVISIONS, MAX_SEGMENTS_AT_ONCE, MAX_TESTS_BEFORE_CONTACT, NEAREST_PAIR_GROWTH,
+};
 use ccd_core::order::{greater, lesser};
 use std::ops::ControlFlow::{self, Break, Continue};
 use std::ops::Range;
@@ -20,7 +22,9 @@ pub(super) struct OpenInterval {
     /// The point of the path where the pair is nearest, as far as is known.
     pub(super) nearest: f64,
     /// The least lower bound of the distance that is known.
-    gap: f32,
+    pub(super) gap: f32,
+    /// See [`TestedPair::is_exact`].
+    is_exact: bool,
 }
 
 /// Eight intervals that are still to be tested.
@@ -79,22 +83,44 @@ impl PathSearch<'_> {
             return Ok(step);
         }
         let mut open = std::mem::take(&mut self.intervals.open);
+        let by_gap = |a: &OpenInterval, b: &OpenInterval| a.gap.total_cmp(&b.gap);
         match self.goal {
             Goal::FirstContact => open.sort_unstable_by(|a, b| a.from.total_cmp(&b.from)),
-            _ => open.sort_unstable_by(|a, b| a.gap.total_cmp(&b.gap)),
-        }
-        let mut step = Ok(Continue(()));
-        for interval in &open {
-            // All pairs are searched up to the earliest interval that is left.
-            self.searched_until = interval.from;
-            step = self.search_open_interval(interval);
-            if !matches!(step, Ok(Continue(()))) {
-                break;
+            Goal::AnyContact => open.sort_unstable_by(by_gap),
+            // Steps decide the exact ones, and then most others are farther apart.
+            Goal::LeastDistance => {
+                open.sort_unstable_by(|a, b| b.is_exact.cmp(&a.is_exact).then(by_gap(a, b)));
             }
         }
+        let step = self.search_open_intervals(&open, from);
         self.searched_until = f64::INFINITY;
         self.intervals.open = open;
         step
+    }
+
+    /// Searches open intervals of a stretch that begins at `start`: by steps, then what they leave.
+    fn search_open_intervals(&mut self, open: &[OpenInterval], start: f64) -> StepResult {
+        self.undecided.clear();
+        let mut earliest_undecided = f64::INFINITY;
+        for interval in open {
+            // All pairs are searched up to the earliest interval that is left.
+            self.searched_until = match self.goal {
+                Goal::FirstContact => lesser(interval.from, earliest_undecided),
+                Goal::AnyContact | Goal::LeastDistance => start,
+            };
+            match self.search_open_interval(interval) {
+                Continue(from) => earliest_undecided = lesser(earliest_undecided, from),
+                Break(()) => return Ok(Break(())),
+            }
+            // A contact of the nearest pair ends the search.
+            if self.goal == Goal::AnyContact {
+                if self.search_undecided()?.is_break() {
+                    return Ok(Break(()));
+                }
+                self.undecided.clear();
+            }
+        }
+        self.search_undecided()
     }
 
     /// In a search for the least distance, measures a pair that is probably among the nearest, unless some distance is
@@ -107,11 +133,22 @@ impl PathSearch<'_> {
             return Ok(Break(()));
         }
         let lanes = Lanes::dividing(from, to);
-        if !self.test(&lanes, None) {
-            return Ok(Continue(()));
-        }
-        if self.record_touching(&lanes).is_break() {
-            return Ok(Break(()));
+        let mut within = self.ball_test.largest_radius();
+        loop {
+            if !self.test_with(Margins::Common(within), &lanes, None) {
+                return Ok(Continue(()));
+            }
+            if self.record_touching(&lanes).is_break() {
+                return Ok(Break(()));
+            }
+            // An infinite distance leaves no pair out. Written so that NaN ends the loop.
+            if self.ball_test.open_pairs().next().is_some() || !(within < f64::INFINITY) {
+                break;
+            }
+            within *= NEAREST_PAIR_GROWTH;
+            if within > self.ball_test.reach() {
+                within = f64::INFINITY;
+            }
         }
         let by_gap = |a: &&TestedPair, b: &&TestedPair| {
             let key = |pair: &TestedPair| (!pair.is_exact(), pair.least_gap);
@@ -127,14 +164,20 @@ impl PathSearch<'_> {
             let bodies = part_pair.body_indices(self.cell.parts());
             return self.check_nonconvex_candidate(&part_pair, bodies, at);
         }
-        self.search_open_interval(&OpenInterval {
-            pair,
-            segment: (at as usize).min(self.segment_count() - 1),
-            from: at,
-            to: at,
-            nearest: at,
-            gap: nearest.least_gap,
-        })
+        Ok(
+            match self.search_open_interval(&OpenInterval {
+                pair,
+                segment: (at as usize).min(self.segment_count() - 1),
+                from: at,
+                to: at,
+                nearest: at,
+                gap: nearest.least_gap,
+                is_exact: nearest.is_exact(),
+            }) {
+                Continue(_) => Continue(()),
+                Break(()) => Break(()),
+            },
+        )
     }
 
     /// Runs the ball test over eight intervals, for the pairs `among` or for all. Returns whether it can be used.
@@ -145,6 +188,10 @@ impl PathSearch<'_> {
                 Margins::Common(self.result.distance_upper_bound - self.tolerance)
             }
         };
+        self.test_with(margins, lanes, among)
+    }
+
+    fn test_with(&mut self, margins: Margins, lanes: &Lanes, among: Option<Range<usize>>) -> bool {
         let is_usable = self.ball_test.test(
             (&self.path, lanes),
             (&self.pairs, margins),
@@ -209,7 +256,7 @@ impl PathSearch<'_> {
         while from < to {
             let end = lesser(to, from.floor() + 1.0);
             self.candidates.clear();
-            let interval = PathInterval::within_segment(from, end);
+            let interval = PathInterval::within_segment(from, end, self.segment_count());
             if self.search(interval, None)?.is_break() {
                 return Ok(Break(()));
             }
@@ -275,6 +322,7 @@ impl PathSearch<'_> {
                     to,
                     nearest: lanes.middle(if is_beside { nearest } else { lane }),
                     gap: pair.least_gap,
+                    is_exact: pair.is_exact(),
                 };
                 add_or_merge(&mut self.intervals.open, interval);
             }

@@ -1,7 +1,7 @@
 //! Tests the error bounds of frames and the displacement bounds of parts.
 
 use super::*;
-use crate::cell::rounding::{CoordinateBounds, point_error_bound};
+use crate::cell::rounding::{CoordinateBounds, pose_rounding};
 use crate::kinematics::Kinematics;
 use crate::kinematics::magnitude::Magnitude;
 use crate::solver::displacement::DisplacementBounds;
@@ -28,11 +28,12 @@ fn frames_are_within_the_bound_on_rounding() {
             position: position.abs(),
             rounding: position.abs(),
         });
-        let bound = point_error_bound(
+        let bound = pose_rounding(
             kinematics,
             CoordinateBounds::of_parts(cell.parts()),
             largest,
-        );
+        )
+        .of_points;
         for part in &cell.parts()[..cell.robot_part_count()] {
             let link = cell.link_of(part.owner);
             let pose = robot
