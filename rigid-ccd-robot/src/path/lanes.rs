@@ -19,6 +19,9 @@ impl Lanes {
             if k == 0 || k == LANES {
                 return if k == 0 { from } else { to };
             }
+            if count <= 1 {
+                return from + (to - from) * (k as f64 / LANES as f64);
+            }
             if count >= LANES {
                 let segments = (count * k) as f64 / LANES as f64;
                 return (first + segments.round()).clamp(from, to);

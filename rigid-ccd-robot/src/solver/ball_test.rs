@@ -54,8 +54,10 @@ pub(crate) struct BallTest<'c> {
     balls: LaneBalls,
     obstacles: Obstacles,
     self_pairs: Vec<SelfPair>,
-    /// The joints between frames and their ancestors: first for each frame and the base, then others for pairs.
+    /// The joints between frames and their ancestors: first for each frame and the base, then for pairs.
     arms: Vec<JointArms>,
+    /// The number of these that the test uses. The others are those of pairs with a table.
+    tested_arms: usize,
     // For the current path:
     /// A bound of the distance of any point of a robot's part from the base and from any joint axis.
     longest_arm: f64,
@@ -72,7 +74,7 @@ pub(crate) struct BallTest<'c> {
     errors: LaneErrors,
     /// For each obstacle the errors of gaps, and of distances that prove a contact.
     obstacle_errors: Vec<[f64; 2]>,
-    /// For each of `arms`, a bound of the second derivatives of positions, and of displacements by deviations.
+    /// For each of the tested `arms`, a bound of the second derivatives of positions, and of displacements by deviations.
     motion_bounds: Vec<[f64; 2]>,
     half_length: f64,
     /// For each joint, its positions at the ends of all intervals.
@@ -107,22 +109,20 @@ impl<'c> BallTest<'c> {
         let mut arms: Vec<JointArms> = (0..frame_count)
             .map(|frame| JointArms::new(kinematics, (frame, &points_of(frame)), 0))
             .collect();
-        let self_pairs = pairs.self_pairs().iter().zip(&model.tables);
-        let self_pairs = self_pairs.map(|(pair, table)| {
+        let mut self_pairs = Vec::new();
+        for (pair, table) in pairs.self_pairs().iter().zip(&model.tables) {
             let parts = [pair.a as usize, pair.b as usize];
-            let frames = parts.map(|part| cell.parts()[part].frame);
-            let common_frame = kinematics.common_frame(frames);
-            let arms = [0, 1].map(|k| {
-                if common_frame == 0 {
-                    return frames[k];
-                }
-                let points = (frames[k], cell.parts()[parts[k]].points());
-                arms.push(JointArms::new(kinematics, points, common_frame));
-                arms.len() - 1
-            });
-            SelfPair::new(cell, (parts, common_frame), arms, table.as_ref())
-        });
-        let self_pairs = self_pairs.collect();
+            self_pairs.push(SelfPair::new(cell, parts, table.as_ref()));
+        }
+        let (without_table, with_table): (Vec<_>, Vec<_>) =
+            self_pairs.iter_mut().partition(|pair| !pair.has_table());
+        for pair in without_table {
+            pair.add_arms(cell, &mut arms);
+        }
+        let tested_arms = arms.len();
+        for pair in with_table {
+            pair.add_arms(cell, &mut arms);
+        }
         BallTest {
             balls: LaneBalls::new(&model.covers, robot_parts, &to_lane_frames),
             obstacles: Obstacles::new(&cell.parts()[robot_parts.len()..], robot_parts.len()),
@@ -136,6 +136,7 @@ impl<'c> BallTest<'c> {
             errors: LaneErrors::default(),
             obstacle_errors: Vec::new(),
             motion_bounds: Vec::new(),
+            tested_arms,
             arms,
             half_length: 0.0,
             ends: vec![[0.0; LANES + 1]; joints.len()],

@@ -89,11 +89,13 @@ impl BallTest<'_> {
         self.obstacle_errors.clear();
         self.obstacle_errors.extend(errors);
         let deviations = &self.deviations;
-        let bounds = self.arms.iter().map(|arms| {
-            [
-                arms.acceleration_bound(|joint| motions[joint]),
-                arms.displacement_bound(deviations, motions),
-            ]
+        let strays = deviations.iter().any(|&deviation| deviation > 0.0);
+        let bounds = self.arms[..self.tested_arms].iter().map(|arms| {
+            let acceleration = arms.acceleration_bound(|joint| motions[joint]);
+            match strays {
+                true => [acceleration, arms.displacement_bound(deviations, motions)],
+                false => [acceleration, 0.0],
+            }
         });
         self.motion_bounds.clear();
         self.motion_bounds.extend(bounds);

@@ -6,6 +6,7 @@ use super::obstacles::Obstacle;
 use super::{BallGaps, BallTest, LANES};
 use crate::cell::Cell;
 use crate::cell::ball_model::DistanceTable;
+use crate::kinematics::joint_arms::JointArms;
 use ccd_core::fearless_simd::{Simd, f32x8, prelude::*};
 use ccd_core::order::greater;
 use ccd_core::simd::{load, splat};
@@ -50,19 +51,32 @@ struct LaneAxis {
 }
 
 impl SelfPair {
-    pub(super) fn new(
-        cell: &Cell,
-        (parts, common_frame): ([usize; 2], usize),
-        arms: [usize; 2],
-        table: Option<&DistanceTable>,
-    ) -> Self {
+    pub(super) fn new(cell: &Cell, parts: [usize; 2], table: Option<&DistanceTable>) -> Self {
+        let frames = parts.map(|part| cell.parts()[part].frame);
         let second = &cell.parts()[parts[1]];
         SelfPair {
             parts,
-            common_frame,
-            arms,
+            common_frame: cell.kinematics().common_frame(frames),
+            arms: frames,
             table: table.map(LaneTable::new),
             half_space: second.plane.map(|_| Obstacle::new(second, parts[1])),
+        }
+    }
+
+    pub(super) fn has_table(&self) -> bool {
+        self.table.is_some()
+    }
+
+    /// Adds the joints between both parts and their common frame, unless that is the base.
+    pub(super) fn add_arms(&mut self, cell: &Cell, arms: &mut Vec<JointArms>) {
+        if self.common_frame == 0 {
+            return;
+        }
+        for (part, index) in self.parts.iter().zip(&mut self.arms) {
+            let part = &cell.parts()[*part];
+            let points = (part.frame, part.points());
+            *index = arms.len();
+            arms.push(JointArms::new(cell.kinematics(), points, self.common_frame));
         }
     }
 }
