@@ -1,5 +1,7 @@
 //! Eight consecutive intervals of a path.
 
+use ccd_core::order::{greater, lesser};
+
 /// The number of intervals that are tested at once.
 pub(crate) const LANES: usize = 8;
 
@@ -29,8 +31,8 @@ impl Lanes {
             // The intervals from `low` on, before `high`, divide this segment.
             let segment = k * count / LANES;
             let [low, high] = [segment, segment + 1].map(|s| (LANES * s).div_ceil(count));
-            let start = (first + segment as f64).max(from);
-            let end = (first + (segment + 1) as f64).min(to);
+            let start = greater(first + segment as f64, from);
+            let end = lesser(first + (segment + 1) as f64, to);
             start + (end - start) * ((k - low) as f64 / (high - low) as f64)
         };
         Lanes {

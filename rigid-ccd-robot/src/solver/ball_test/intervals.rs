@@ -92,10 +92,12 @@ impl BallTest<'_> {
         let strays = deviations.iter().any(|&deviation| deviation > 0.0);
         let bounds = self.arms[..self.tested_arms].iter().map(|arms| {
             let acceleration = arms.acceleration_bound(|joint| motions[joint]);
-            match strays {
-                true => [acceleration, arms.displacement_bound(deviations, motions)],
-                false => [acceleration, 0.0],
-            }
+            let displacement = if strays {
+                arms.displacement_bound(deviations, motions)
+            } else {
+                0.0
+            };
+            [acceleration, displacement]
         });
         self.motion_bounds.clear();
         self.motion_bounds.extend(bounds);

@@ -56,9 +56,10 @@ impl PathSearch<'_> {
 
     /// Searches an interval of a path: some segments at a time if they are at constant rates, otherwise one.
     pub(super) fn search_stretches(&mut self, interval: PathInterval) -> StepResult {
-        let segments = match self.path.has_constant_rates() {
-            true => MAX_SEGMENTS_AT_ONCE,
-            false => 1.0,
+        let segments = if self.path.has_constant_rates() {
+            MAX_SEGMENTS_AT_ONCE
+        } else {
+            1.0
         };
         let mut from = interval.from;
         while from < interval.to && from < self.result.end {
