@@ -94,6 +94,9 @@ pub(crate) const LEAST_CUT_GAIN: f64 = 0.95;
 pub(crate) const BALL_STEPS: u32 = 300;
 pub(crate) const TRIAL_BALL_STEPS: u32 = 8;
 
+/// The number of polygons, give or take a factor of two, whose corners a ball that is compared is found for.
+pub(crate) const TRIAL_POLYGONS: usize = 64;
+
 /// The largest number of cells of all tables of distances together, and the distance beyond which tables are not
 /// accurate, in metres.
 pub(crate) const MAX_TABLE_CELLS: usize = 1 << 15;

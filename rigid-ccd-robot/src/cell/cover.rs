@@ -12,7 +12,7 @@
 //! their edges; [`CROSSING_ERROR`] enlarges the balls for that.
 
 use super::part::HullPart;
-use crate::tuning::{BALL_STEPS, BALLS_PER_PART, LEAST_CUT_GAIN, TRIAL_BALL_STEPS};
+use crate::tuning::{BALL_STEPS, BALLS_PER_PART, LEAST_CUT_GAIN, TRIAL_BALL_STEPS, TRIAL_POLYGONS};
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::glam::DVec3;
 
@@ -115,7 +115,10 @@ impl<'p> Piece<'p> {
             for share in [0.4, 0.5, 0.6] {
                 let halves = cut_polygons(&self.polygons, normal, low + share * (high - low));
                 let radii = halves.each_ref().map(|polygons| {
-                    let points = distinct_points(polygons);
+                    // Any choice of points tells halves apart; the ball that is used contains all.
+                    let step = polygons.len() / TRIAL_POLYGONS + 1;
+                    let points = polygons.iter().step_by(step).flatten().copied();
+                    let points: Vec<DVec3> = points.collect();
                     farthest(&points, ball_center(&points, TRIAL_BALL_STEPS)).0
                 });
                 let larger = greater(radii[0], radii[1]);
@@ -125,7 +128,9 @@ impl<'p> Piece<'p> {
             }
         }
         let new = |polygons| Piece::new(self.part, self.part_index, polygons);
-        best.1.map(|halves| halves.map(new))
+        let halves = best.1.map(|halves| halves.map(new))?;
+        let larger = greater(halves[0].radius, halves[1].radius);
+        (larger < LEAST_CUT_GAIN * self.radius).then_some(halves)
     }
 
     /// Returns the ball around the piece. `surface` are the polygons of the whole part.

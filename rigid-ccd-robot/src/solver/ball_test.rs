@@ -44,6 +44,7 @@ use frames::{LaneFrame, LaneJoint, place_frames};
 use obstacles::Obstacles;
 use placed_balls::{LaneBall, LaneBalls, PlacedBall};
 use self_pairs::SelfPair;
+use std::collections::HashMap;
 use tested_pair::BallGaps;
 pub(crate) use tested_pair::{BallPair, Margins, TestedPair, TouchingPair};
 
@@ -106,9 +107,18 @@ impl<'c> BallTest<'c> {
             points.collect::<Vec<_>>()
         };
         let frame_count = joints.len() + 1;
-        let mut arms: Vec<JointArms> = (0..frame_count)
-            .map(|frame| JointArms::new(kinematics, (frame, &points_of(frame)), 0))
-            .collect();
+        let new_arms = |[frame, ancestor]: [usize; 2]| {
+            JointArms::new(kinematics, (frame, &points_of(frame)), ancestor)
+        };
+        let mut arms: Vec<JointArms> = (0..frame_count).map(|frame| new_arms([frame, 0])).collect();
+        let mut index_by_frames = HashMap::new();
+        let mut index_of = |frames: [usize; 2]| match frames {
+            [frame, 0] => frame,
+            _ => *index_by_frames.entry(frames).or_insert_with(|| {
+                arms.push(new_arms(frames));
+                arms.len() - 1
+            }),
+        };
         let mut self_pairs = Vec::new();
         for (pair, table) in pairs.self_pairs().iter().zip(&model.tables) {
             let parts = [pair.a as usize, pair.b as usize];
@@ -116,12 +126,13 @@ impl<'c> BallTest<'c> {
         }
         let (without_table, with_table): (Vec<_>, Vec<_>) =
             self_pairs.iter_mut().partition(|pair| !pair.has_table());
+        let mut tested_arms = frame_count;
         for pair in without_table {
-            pair.add_arms(cell, &mut arms);
+            pair.set_arms(&mut index_of);
+            tested_arms = tested_arms.max(1 + pair.arms[0].max(pair.arms[1]));
         }
-        let tested_arms = arms.len();
         for pair in with_table {
-            pair.add_arms(cell, &mut arms);
+            pair.set_arms(&mut index_of);
         }
         BallTest {
             balls: LaneBalls::new(&model.covers, robot_parts, &to_lane_frames),

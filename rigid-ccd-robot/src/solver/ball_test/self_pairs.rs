@@ -6,7 +6,6 @@ use super::obstacles::Obstacle;
 use super::{BallGaps, BallTest, LANES};
 use crate::cell::Cell;
 use crate::cell::ball_model::DistanceTable;
-use crate::kinematics::joint_arms::JointArms;
 use ccd_core::fearless_simd::{Simd, f32x8, prelude::*};
 use ccd_core::order::greater;
 use ccd_core::simd::{load, splat};
@@ -67,17 +66,11 @@ impl SelfPair {
         self.table.is_some()
     }
 
-    /// Adds the joints between both parts and their common frame, unless that is the base.
-    pub(super) fn add_arms(&mut self, cell: &Cell, arms: &mut Vec<JointArms>) {
-        if self.common_frame == 0 {
-            return;
-        }
-        for (part, index) in self.parts.iter().zip(&mut self.arms) {
-            let part = &cell.parts()[*part];
-            let points = (part.frame, part.points());
-            *index = arms.len();
-            arms.push(JointArms::new(cell.kinematics(), points, self.common_frame));
-        }
+    /// Sets the joints between the frames of both parts and their common frame. `index_of` returns the index of those
+    /// between a frame and its ancestor.
+    pub(super) fn set_arms(&mut self, mut index_of: impl FnMut([usize; 2]) -> usize) {
+        // At first the arms are the frames.
+        self.arms = self.arms.map(|frame| index_of([frame, self.common_frame]));
     }
 }
 

@@ -20,6 +20,7 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::schedule::VectorInstructions;
 use ccd_core::vectorize;
 use ccd_distance_gjk::{DistanceBounds, TerminationBounds, bound_distance};
+use rigid_ccd::Error;
 use rigid_ccd::glam::DVec3;
 use std::ops::ControlFlow::{self, Break, Continue};
 
@@ -59,7 +60,13 @@ enum Advance {
 impl PathSearch<'_> {
     /// Searches the interval of a pair. Adds what stays undecided to `undecided`, and returns where that begins; infinity
     /// if nothing stays undecided.
-    pub(super) fn search_open_interval(&mut self, open: &OpenInterval) -> ControlFlow<(), f64> {
+    ///
+    /// # Errors
+    /// Errors of the engine.
+    pub(super) fn search_open_interval(
+        &mut self,
+        open: &OpenInterval,
+    ) -> Result<ControlFlow<(), f64>, Error> {
         let mut pair = self.ball_test.part_pair(&self.pairs, open.pair);
         let motion = self.motion_of_pair(open);
         self.set_joints_between(&pair);
@@ -68,6 +75,7 @@ impl PathSearch<'_> {
         left.push([open.from, open.to]);
         let mut at = open.nearest;
         let (mut step, mut count) = (Continue(()), 0);
+        let mut undecided_at = None;
         while let Some([from, to]) = left.pop() {
             let to = lesser(to, self.result.end);
             // Written so that NaN is searched.
@@ -107,6 +115,7 @@ impl PathSearch<'_> {
                 }
                 Advance::Near | Advance::Undecided => {
                     left.push([from, to]);
+                    undecided_at = Some(at);
                     break;
                 }
                 Advance::Steps { back, forth } => {
@@ -124,6 +133,12 @@ impl PathSearch<'_> {
             at = f64::NAN;
         }
         let bodies = pair.body_indices(self.cell.parts());
+        if let (Goal::AnyContact, Some(at)) = (self.goal, undecided_at) {
+            // A contact of some pair ends the search. Intervals take the engine longer than points.
+            if !self.undecided.contains(open.segment, bodies) {
+                step = self.check_nonconvex_candidate(&pair, bodies, at)?;
+            }
+        }
         // Written so that NaN stays undecided. An interval without length is measured.
         let undecided = left.iter().filter(|[from, to]| from != to);
         let undecided = undecided.map(|&[from, to]| UndecidedInterval {
@@ -136,10 +151,10 @@ impl PathSearch<'_> {
         });
         let earliest = self.undecided.extend(undecided);
         self.unsearched = left;
-        match step {
+        Ok(match step {
             Continue(()) => Continue(earliest),
             Break(()) => Break(()),
-        }
+        })
     }
 
     fn motion_of_pair(&self, open: &OpenInterval) -> PairMotion {

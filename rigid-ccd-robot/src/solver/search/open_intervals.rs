@@ -109,16 +109,9 @@ impl PathSearch<'_> {
                 Goal::FirstContact => lesser(interval.from, earliest_undecided),
                 Goal::AnyContact | Goal::LeastDistance => start,
             };
-            match self.search_open_interval(interval) {
+            match self.search_open_interval(interval)? {
                 Continue(from) => earliest_undecided = lesser(earliest_undecided, from),
                 Break(()) => return Ok(Break(())),
-            }
-            // A contact of the nearest pair ends the search.
-            if self.goal == Goal::AnyContact {
-                if self.search_undecided()?.is_break() {
-                    return Ok(Break(()));
-                }
-                self.undecided.clear();
             }
         }
         self.search_undecided()
@@ -165,20 +158,19 @@ impl PathSearch<'_> {
             let bodies = part_pair.body_indices(self.cell.parts());
             return self.check_nonconvex_candidate(&part_pair, bodies, at);
         }
-        Ok(
-            match self.search_open_interval(&OpenInterval {
-                pair,
-                segment: (at as usize).min(self.segment_count() - 1),
-                from: at,
-                to: at,
-                nearest: at,
-                gap: nearest.least_gap,
-                is_exact: nearest.is_exact(),
-            }) {
-                Continue(_) => Continue(()),
-                Break(()) => Break(()),
-            },
-        )
+        let step = self.search_open_interval(&OpenInterval {
+            pair,
+            segment: (at as usize).min(self.segment_count() - 1),
+            from: at,
+            to: at,
+            nearest: at,
+            gap: nearest.least_gap,
+            is_exact: nearest.is_exact(),
+        })?;
+        Ok(match step {
+            Continue(_) => Continue(()),
+            Break(()) => Break(()),
+        })
     }
 
     /// Runs the ball test over eight intervals, for the pairs `among` or for all. Returns whether it can be used.

@@ -52,6 +52,12 @@ impl Undecided {
         earliest
     }
 
+    /// Returns whether there is an interval of two bodies in a segment.
+    pub(super) fn contains(&self, segment: usize, bodies: [usize; 2]) -> bool {
+        let mut known = self.intervals.iter();
+        known.any(|known| known.segment == segment && known.bodies == bodies)
+    }
+
     /// Puts the intervals of the same two bodies in the same segment together.
     fn group(&mut self) {
         let key = |interval: &UndecidedInterval| (interval.segment, interval.bodies);
