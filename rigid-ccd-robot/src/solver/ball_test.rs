@@ -268,6 +268,7 @@ impl<'c> BallTest<'c> {
         match among {
             Some(among) => {
                 self.tested.extend(among.iter().map(TestedPair::untested));
+                self.renew_touching_errors();
             }
             None => self.append_all_pairs(level, pairs),
         }
@@ -284,6 +285,17 @@ impl<'c> BallTest<'c> {
             }
         }
         true
+    }
+
+    /// Sets the errors of distances that prove a contact to those of the current intervals.
+    fn renew_touching_errors(&mut self) {
+        for index in 0..self.tested.len() {
+            let [_, error] = match self.tested[index].pair {
+                BallPair::Obstacle { obstacle, .. } => self.obstacle_errors[obstacle as usize],
+                BallPair::OfRobot(pair) => self.self_pair_errors(pair as usize),
+            };
+            self.tested[index].set_touching_error(error);
+        }
     }
 
     /// Appends the pairs of all links with the obstacles that may come near them, and the pairs of the robot's own

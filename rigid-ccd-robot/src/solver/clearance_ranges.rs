@@ -155,6 +155,7 @@ impl CellSolver<'_> {
             ClearanceVerdict::Violated
         } else if goes_on
             && interval.to - interval.from > resolution
+            && (interval.from < interval.middle() && interval.middle() < interval.to)
             && self.search.placement.moves()
         {
             for half in interval.halves() {

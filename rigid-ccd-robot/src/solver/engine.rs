@@ -51,7 +51,7 @@ impl PathSearch<'_> {
             Goal::FirstContact => Goal::AnyContact,
             other => other,
         };
-        let candidate = EngineCandidate::new_at_point(*pair, bodies, at);
+        let candidate = EngineCandidate::new_at_point(*pair, bodies, (at, self.segment_count()));
         let answer = self.query_engine(goal, &candidate, None)?;
         if goal == Goal::LeastDistance {
             return Ok(self.record_distance(&candidate, &answer.outcome));

@@ -3,6 +3,7 @@
 use super::Goal;
 use super::part_pairs::PartPair;
 use crate::path::interval::PathInterval;
+use crate::path_point::PathPoint;
 use ccd_core::order::{greater, lesser};
 
 /// A candidate pair over an interval of one segment.
@@ -21,12 +22,16 @@ pub(crate) struct EngineCandidate {
 pub(crate) struct EngineCandidates(Vec<EngineCandidate>);
 
 impl EngineCandidate {
-    /// Creates a candidate at a single point of the path.
-    pub(crate) fn new_at_point(pair: PartPair, bodies: [usize; 2], at: f64) -> Self {
+    /// Creates a candidate at a single point of a path with this number of segments.
+    pub(crate) fn new_at_point(
+        pair: PartPair,
+        bodies: [usize; 2],
+        (at, segments): (f64, usize),
+    ) -> Self {
         EngineCandidate {
             pair,
             bodies,
-            segment: at as usize,
+            segment: PathPoint::from_path_position(at, segments).segment,
             from: at,
             to: at,
         }

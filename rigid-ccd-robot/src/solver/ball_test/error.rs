@@ -72,7 +72,7 @@ impl LaneErrors {
             // The velocity is the sum of the products of rates, axes and arms, whose errors are both that of rotations.
             // The error of angles in f64 is in `pose_rounding`.
             velocity: 4.0 * rotation * (turning * arm + sliding)
-                + 2.0 * turning * sources.pose_rounding,
+                + 2.0 * (turning + sliding / arm) * sources.pose_rounding,
             angle,
         }
     }

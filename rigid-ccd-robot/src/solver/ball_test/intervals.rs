@@ -200,8 +200,13 @@ impl BallTest<'_> {
                 for (k, ends) in self.ends.iter().enumerate() {
                     let chord = ends[lane] + fraction * (ends[lane + 1] - ends[lane]);
                     let mut deviation = (starts[k] + changes[k] - chord).abs();
-                    if let Some(next) = next {
-                        deviation = greater(deviation, (next[k] - chord).abs());
+                    match next {
+                        Some(next) => deviation = greater(deviation, (next[k] - chord).abs()),
+                        // The interval ends with a jump, so that its chord is not a part of the path.
+                        None if !(deviation <= rounding(&self.motions[k])) => {
+                            self.exact_lanes &= !(1 << lane);
+                        }
+                        None => {}
                     }
                     self.deviations[k] = greater(self.deviations[k], deviation);
                 }

@@ -7,7 +7,7 @@ use ccd_core::fearless_simd::{Simd, f32x8, prelude::*};
 use ccd_core::simd::splat;
 
 /// A pair of parts that the ball test compares.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum BallPair {
     /// A part of the robot, and the index of an obstacle's part among those of all obstacles.
     Obstacle { part: u32, obstacle: u32 },
@@ -81,6 +81,10 @@ impl TestedPair {
             nearest: 0,
             least_gap: f32::INFINITY,
         }
+    }
+
+    pub(super) fn set_touching_error(&mut self, error: f64) {
+        self.touching_error = (error * ENLARGED) as f32;
     }
 
     /// Returns the pair without results.

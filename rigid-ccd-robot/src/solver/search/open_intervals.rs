@@ -84,6 +84,7 @@ impl PathSearch<'_> {
             return Ok(step);
         }
         let mut open = std::mem::take(&mut self.intervals.open);
+        merge_adjacent(&mut open);
         let by_gap = |a: &OpenInterval, b: &OpenInterval| a.gap.total_cmp(&b.gap);
         match self.goal {
             Goal::FirstContact => open.sort_unstable_by(|a, b| a.from.total_cmp(&b.from)),
@@ -306,9 +307,13 @@ impl PathSearch<'_> {
                     continue;
                 };
                 let [from, to] = lanes.ends(lane);
+                // An interval without length belongs to the one beside it, and may be after the last segment.
+                if !(from < to) {
+                    continue;
+                }
                 let nearest = usize::from(pair.nearest);
                 let is_beside = is_open(nearest) && lanes.segment(nearest) == Some(segment);
-                let interval = OpenInterval {
+                self.intervals.open.push(OpenInterval {
                     pair: pair.pair,
                     segment,
                     from,
@@ -316,8 +321,7 @@ impl PathSearch<'_> {
                     nearest: lanes.middle(if is_beside { nearest } else { lane }),
                     gap: pair.least_gap,
                     is_exact: pair.is_exact(),
-                };
-                add_or_merge(&mut self.intervals.open, interval);
+                });
             }
         }
         Continue(())
@@ -337,22 +341,21 @@ impl PathSearch<'_> {
     }
 }
 
-/// Adds an open interval. If the pair has an adjacent interval, both are merged.
-fn add_or_merge(open: &mut Vec<OpenInterval>, interval: OpenInterval) {
-    let mut same = open.iter_mut().filter(|known| {
-        known.pair == interval.pair
-            && known.segment == interval.segment
-            && known.from <= interval.to
-            && interval.from <= known.to
+/// Merges adjacent intervals of the same pair in the same segment.
+fn merge_adjacent(open: &mut Vec<OpenInterval>) {
+    open.sort_unstable_by(|a, b| {
+        let by_pair = (a.segment, a.pair).cmp(&(b.segment, b.pair));
+        by_pair.then(a.from.total_cmp(&b.from))
     });
-    match same.next() {
-        Some(known) => {
-            known.from = lesser(known.from, interval.from);
-            known.to = greater(known.to, interval.to);
-            if interval.gap < known.gap {
-                (known.gap, known.nearest) = (interval.gap, interval.nearest);
-            }
+    open.dedup_by(|later, earlier| {
+        let is_same = (later.segment, later.pair) == (earlier.segment, earlier.pair);
+        if !is_same || later.from > earlier.to {
+            return false;
         }
-        None => open.push(interval),
-    }
+        earlier.to = greater(earlier.to, later.to);
+        if later.gap < earlier.gap {
+            (earlier.gap, earlier.nearest) = (later.gap, later.nearest);
+        }
+        true
+    });
 }

@@ -101,3 +101,45 @@ fn nearly_equal_corners_make_no_box() {
     let cell = slider([0.9, 0.9, 0.0], ball(0.1), (triangle, [0.0; 3]));
     assert!(!touches(&cell, &[[0.0], [1e-3]]));
 }
+
+/// In the last of many segments, eight intervals are so short that the last one has no length.
+#[test]
+fn intervals_without_length_are_left_out() {
+    let cell = slider([0.0; 3], ball(1.0), (ball(1.0), [1002.005, 0.0, 0.0]));
+    let path = vec![[1000.0]; 16386];
+    assert!(!touches(&cell, &path[..]));
+}
+
+/// The midpoint of the last interval is rounded to the end of the path.
+#[test]
+fn a_contact_at_the_end_of_a_long_path_is_found() {
+    let box_at = |x: f64| {
+        let corners = (0..8).map(|k| {
+            let coordinate = |bit: i32| if k >> bit & 1 == 1 { 0.5 } else { -0.5 };
+            DVec3::new(x + coordinate(0), coordinate(1), coordinate(2))
+        });
+        Polytope {
+            points: corners.collect(),
+            ..Polytope::default()
+        }
+    };
+    let pieces = Pieces::from_polytopes(&[box_at(-0.5), box_at(-3.0)]).unwrap();
+    let body = Body::new(&pieces, Solidity::Solid).unwrap();
+    let obstacle = Body::cuboid([0.5; 3]).unwrap();
+    let cell = slider([0.0; 3], body, (obstacle, [0.5, 0.0, 0.0]));
+    let mut path = vec![[-1.0]; 1025];
+    path.push([0.0]);
+    for tolerance in [1e-3, 1e-12] {
+        let mut solver = cell.solver().with_settings(Settings {
+            tolerance,
+            ..Settings::DEFAULT
+        });
+        let PathOutcome::Contact(contact) = solver.first_contact(&path[..]).unwrap().outcome else {
+            panic!("the last configuration touches");
+        };
+        assert_eq!(contact.at.segment, 1024);
+        assert!(!solver.is_free(&path[..]).unwrap());
+        let closest = solver.closest_approach(&path[..]).unwrap().outcome;
+        assert!(closest.upper() <= 1e-9, "{closest:?}");
+    }
+}
