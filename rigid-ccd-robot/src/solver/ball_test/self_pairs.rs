@@ -29,6 +29,8 @@ pub(super) struct SelfPair {
     table: Option<LaneTable>,
     /// The half-space of the second part, if it is one.
     half_space: Option<Obstacle>,
+    /// Whether both parts are exactly their bodies.
+    is_convex: bool,
 }
 
 /// A table of distances in f32.
@@ -59,6 +61,7 @@ impl SelfPair {
             arms: frames,
             table: table.map(LaneTable::new),
             half_space: second.plane.map(|_| Obstacle::new(second, parts[1])),
+            is_convex: parts.iter().all(|&part| cell.parts()[part].is_convex),
         }
     }
 
@@ -131,7 +134,12 @@ impl BallTest<'_> {
             }
             None => {
                 let error = BALL_GAP_ERROR * UNIT_ROUNDOFF * self.longest_arm;
-                [error, error + 2.0 * self.errors.position]
+                let touching_error = if pair.is_convex {
+                    error + 2.0 * self.errors.position
+                } else {
+                    f64::INFINITY
+                };
+                [error, touching_error]
             }
         }
     }

@@ -311,6 +311,12 @@ impl PathSearch<'_> {
                 if !(from < to) {
                     continue;
                 }
+                if let Some(last) = self.intervals.open.last_mut()
+                    && (last.pair, last.segment, last.to) == (pair.pair, segment, from)
+                {
+                    last.to = to;
+                    continue;
+                }
                 let nearest = usize::from(pair.nearest);
                 let is_beside = is_open(nearest) && lanes.segment(nearest) == Some(segment);
                 self.intervals.open.push(OpenInterval {
