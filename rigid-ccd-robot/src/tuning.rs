@@ -133,3 +133,6 @@ pub(crate) const NEAREST_PAIR_GROWTH: f64 = 4.0;
 /// The largest number of segments at constant rates that are tested together. The segments after a contact are tested in
 /// vain.
 pub(crate) const MAX_SEGMENTS_AT_ONCE: f64 = 64.0;
+
+/// The number of the last open intervals among which an adjacent one of the same pair is sought.
+pub(crate) const MERGED_INTERVALS: usize = 16;

@@ -83,7 +83,7 @@ impl Covers {
                 None => largest.can_be_cut = false,
             }
         }
-        pieces.sort_by_key(|piece| piece.part_index);
+        pieces.sort_unstable_by_key(|piece| piece.part_index);
         let first = |part| pieces.partition_point(|piece| piece.part_index < part);
         Covers {
             balls: pieces.iter().map(ball_of).collect(),
@@ -241,7 +241,7 @@ fn longest_directions(points: &[DVec3]) -> Vec<(DVec3, [f64; 2])> {
         })
         .collect();
     let extent = |(_, [low, high]): &(DVec3, [f64; 2])| high - low;
-    directions.sort_by(|a, b| extent(b).total_cmp(&extent(a)));
+    directions.sort_unstable_by(|a, b| extent(b).total_cmp(&extent(a)));
     directions.truncate(3);
     directions
 }
@@ -270,7 +270,7 @@ fn farthest(points: &[DVec3], center: DVec3) -> (f64, DVec3) {
 fn distinct_points(polygons: &[Vec<DVec3>]) -> Vec<DVec3> {
     let mut points: Vec<DVec3> = polygons.iter().flatten().copied().collect();
     let key = |point: &DVec3| point.to_array();
-    points.sort_by(|a, b| {
+    points.sort_unstable_by(|a, b| {
         key(a)
             .partial_cmp(&key(b))
             .unwrap_or(std::cmp::Ordering::Equal)

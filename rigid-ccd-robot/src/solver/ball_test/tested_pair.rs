@@ -7,7 +7,7 @@ use ccd_core::fearless_simd::{Simd, f32x8, prelude::*};
 use ccd_core::simd::splat;
 
 /// A pair of parts that the ball test compares.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum BallPair {
     /// A part of the robot, and the index of an obstacle's part among those of all obstacles.
     Obstacle { part: u32, obstacle: u32 },

@@ -6,9 +6,10 @@ use crate::path::lanes::{LANES, Lanes};
 use crate::solver::Goal;
 use crate::solver::ball_test::{BallPair, Margins, TestedPair};
 use crate::tuning::{
-    MAX_DIVISIONS, MAX_SEGMENTS_AT_ONCE, MAX_TESTS_BEFORE_CONTACT, NEAREST_PAIR_GROWTH,
+    MAX_DIVISIONS, MAX_SEGMENTS_AT_ONCE, MAX_TESTS_BEFORE_CONTACT, MERGED_INTERVALS,
+    NEAREST_PAIR_GROWTH,
 };
-use ccd_core::order::{greater, lesser};
+use ccd_core::order::lesser;
 use std::ops::ControlFlow::{self, Break, Continue};
 use std::ops::Range;
 
@@ -84,16 +85,16 @@ impl PathSearch<'_> {
             return Ok(step);
         }
         let mut open = std::mem::take(&mut self.intervals.open);
-        merge_adjacent(&mut open);
-        let by_gap = |a: &OpenInterval, b: &OpenInterval| a.gap.total_cmp(&b.gap);
-        match self.goal {
-            Goal::FirstContact => open.sort_unstable_by(|a, b| a.from.total_cmp(&b.from)),
-            Goal::AnyContact => open.sort_unstable_by(by_gap),
-            // Steps decide the exact ones, and then most others are farther apart.
-            Goal::LeastDistance => {
-                open.sort_unstable_by(|a, b| b.is_exact.cmp(&a.is_exact).then(by_gap(a, b)));
+        let goal = self.goal;
+        open.sort_unstable_by(|a, b| {
+            let by_gap = a.gap.total_cmp(&b.gap);
+            match goal {
+                Goal::FirstContact => a.from.total_cmp(&b.from),
+                Goal::AnyContact => by_gap,
+                // Steps decide the exact ones, and then most others are farther apart.
+                Goal::LeastDistance => b.is_exact.cmp(&a.is_exact).then(by_gap),
             }
-        }
+        });
         let step = self.search_open_intervals(&open, from);
         self.searched_until = f64::INFINITY;
         self.intervals.open = open;
@@ -311,20 +312,27 @@ impl PathSearch<'_> {
                 if !(from < to) {
                     continue;
                 }
-                if let Some(last) = self.intervals.open.last_mut()
-                    && (last.pair, last.segment, last.to) == (pair.pair, segment, from)
-                {
-                    last.to = to;
-                    continue;
-                }
                 let nearest = usize::from(pair.nearest);
                 let is_beside = is_open(nearest) && lanes.segment(nearest) == Some(segment);
+                let nearest = lanes.middle(if is_beside { nearest } else { lane });
+                // An adjacent interval of the pair is among the last ones, unless many pairs are open.
+                let mut recent = self.intervals.open.iter_mut().rev().take(MERGED_INTERVALS);
+                let adjacent = recent.find(|known| {
+                    (known.pair, known.segment, known.to) == (pair.pair, segment, from)
+                });
+                if let Some(known) = adjacent {
+                    known.to = to;
+                    if pair.least_gap < known.gap {
+                        (known.gap, known.nearest) = (pair.least_gap, nearest);
+                    }
+                    continue;
+                }
                 self.intervals.open.push(OpenInterval {
                     pair: pair.pair,
                     segment,
                     from,
                     to,
-                    nearest: lanes.middle(if is_beside { nearest } else { lane }),
+                    nearest,
                     gap: pair.least_gap,
                     is_exact: pair.is_exact(),
                 });
@@ -345,23 +353,4 @@ impl PathSearch<'_> {
         }
         Continue(())
     }
-}
-
-/// Merges adjacent intervals of the same pair in the same segment.
-fn merge_adjacent(open: &mut Vec<OpenInterval>) {
-    open.sort_unstable_by(|a, b| {
-        let by_pair = (a.segment, a.pair).cmp(&(b.segment, b.pair));
-        by_pair.then(a.from.total_cmp(&b.from))
-    });
-    open.dedup_by(|later, earlier| {
-        let is_same = (later.segment, later.pair) == (earlier.segment, earlier.pair);
-        if !is_same || later.from > earlier.to {
-            return false;
-        }
-        earlier.to = greater(earlier.to, later.to);
-        if later.gap < earlier.gap {
-            (earlier.gap, earlier.nearest) = (later.gap, later.nearest);
-        }
-        true
-    });
 }

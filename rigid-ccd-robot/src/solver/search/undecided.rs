@@ -89,12 +89,11 @@ impl PathSearch<'_> {
     pub(super) fn search_undecided(&mut self) -> StepResult {
         self.undecided.group();
         let mut groups = std::mem::take(&mut self.undecided.groups);
-        match self.goal {
-            Goal::FirstContact => groups.sort_unstable_by(|a, b| a.from.total_cmp(&b.from)),
-            Goal::AnyContact | Goal::LeastDistance => {
-                groups.sort_unstable_by(|a, b| a.gap.total_cmp(&b.gap));
-            }
-        }
+        let goal = self.goal;
+        groups.sort_unstable_by(|a, b| match goal {
+            Goal::FirstContact => a.from.total_cmp(&b.from),
+            Goal::AnyContact | Goal::LeastDistance => a.gap.total_cmp(&b.gap),
+        });
         let mut step = Ok(Continue(()));
         for group in &groups {
             if self.goal == Goal::FirstContact {
