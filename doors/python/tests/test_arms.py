@@ -109,8 +109,7 @@ def test_a_robot_is_made_of_joints_and_bodies() -> None:
     tips: Any = {"left finger": BALL, "right finger": [(BALL, HERE), (BALL, ([1, 0, 0], [0, 0, 0, 1]))]}
     gripper = Robot(fingers, tips)
     assert gripper.joint_names == ["left"] and gripper.checked_pairs == [("left finger", "right finger")]
-    # Within the tolerance, which is 1e-3.
-    assert Cell(gripper).closest_approach([[0.0], [-0.3]]).upper == pytest.approx(0.2, abs=1e-3)
+    assert Cell(gripper).closest_approach([[0.0], [-0.3]], tolerance=1e-8).upper == pytest.approx(0.2)
     assert not Cell(gripper).is_free([[0.0], [-0.4]])
     with pytest.raises(InputError, match="nothing is compared in this cell: .*1 not \\(disabled: may touch\\)"):
         Cell(Robot(fingers, tips, [("right finger", "left finger")])).is_free([[0.0], [-0.4]])
