@@ -153,27 +153,21 @@ impl<'p> Piece<'p> {
 impl Surface {
     fn of_part(part: &HullPart) -> Self {
         let corners = part.points();
-        let all = vec![corners.to_vec()];
-        match ccd_decomp::convex_hull(corners) {
+        let hull = ccd_decomp::convex_hull(corners);
+        // Without the edges of the hull, halves would not cover it. The balls of a half-space are not used.
+        let can_be_cut = hull.is_ok() && part.plane.is_none();
+        let polygons = match hull {
             Ok(hull) if hull.facets.iter().count() > 0 => {
                 let polygon =
                     |facet: &[u32]| facet.iter().map(|&k| hull.points[k as usize]).collect();
-                Surface {
-                    polygons: hull.facets.iter().map(polygon).collect(),
-                    // The balls of a half-space are not used.
-                    can_be_cut: part.plane.is_none(),
-                }
+                hull.facets.iter().map(polygon).collect()
             }
-            // All points are on a line.
-            Ok(_) => Surface {
-                polygons: all,
-                can_be_cut: true,
-            },
-            // Without the edges of the hull, halves would not cover it.
-            Err(_) => Surface {
-                polygons: all,
-                can_be_cut: false,
-            },
+            // All points are on a line, or there is no hull.
+            _ => vec![corners.to_vec()],
+        };
+        Surface {
+            polygons,
+            can_be_cut,
         }
     }
 }

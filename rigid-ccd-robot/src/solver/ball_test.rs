@@ -290,11 +290,17 @@ impl<'c> BallTest<'c> {
     /// Sets the errors of distances that prove a contact to those of the current intervals.
     fn renew_touching_errors(&mut self) {
         for index in 0..self.tested.len() {
-            let [_, error] = match self.tested[index].pair {
-                BallPair::Obstacle { obstacle, .. } => self.obstacle_errors[obstacle as usize],
-                BallPair::OfRobot(pair) => self.self_pair_errors(pair as usize),
-            };
+            let [_, error] = self.errors_of(self.tested[index].pair);
             self.tested[index].set_touching_error(error);
+        }
+    }
+
+    /// Returns the errors of a pair's gaps, and of distances that prove a contact.
+    #[inline(always)]
+    fn errors_of(&self, pair: BallPair) -> [f64; 2] {
+        match pair {
+            BallPair::Obstacle { obstacle, .. } => self.obstacle_errors[obstacle as usize],
+            BallPair::OfRobot(index) => self.self_pair_errors(index as usize),
         }
     }
 
@@ -331,10 +337,9 @@ impl<'c> BallTest<'c> {
                     let bodies = both.map(|part| parts[part].owner);
                     if !self.cell.is_allowed(bodies) && !pairs.is_ignored(bodies) {
                         let pair = BallPair::Obstacle { part, obstacle };
-                        let errors = self.obstacle_errors[obstacle as usize];
                         let margin = margins.of_pair(pairs.obstacle_margin(bodies));
-                        self.tested
-                            .push(TestedPair::new(pair, [margin, errors[0], errors[1]]));
+                        let errors = self.errors_of(pair);
+                        self.tested.push(TestedPair::new(pair, margin, errors));
                     }
                 }
             }
@@ -343,10 +348,10 @@ impl<'c> BallTest<'c> {
             if pairs.is_ignored(pair.body_indices(parts)) {
                 continue;
             }
-            let [error, touching_error] = self.self_pair_errors(index as usize);
-            let errors = [margins.of_pair(pair.margin), error, touching_error];
-            self.tested
-                .push(TestedPair::new(BallPair::OfRobot(index), errors));
+            let margin = margins.of_pair(pair.margin);
+            let pair = BallPair::OfRobot(index);
+            let errors = self.errors_of(pair);
+            self.tested.push(TestedPair::new(pair, margin, errors));
         }
     }
 

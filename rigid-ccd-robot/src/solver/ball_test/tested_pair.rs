@@ -71,7 +71,7 @@ impl Margins {
 }
 
 impl TestedPair {
-    pub(super) fn new(pair: BallPair, [margin, error, touching_error]: [f64; 3]) -> Self {
+    pub(super) fn new(pair: BallPair, margin: f64, [error, touching_error]: [f64; 2]) -> Self {
         TestedPair {
             pair,
             allowance: ((margin + error) * ENLARGED) as f32,

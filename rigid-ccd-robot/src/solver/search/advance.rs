@@ -119,42 +119,39 @@ impl PathSearch<'_> {
                     break;
                 }
                 Advance::Steps { back, forth } => {
-                    let later = (at + forth).next_down();
-                    let earlier = (at - back).next_up();
-                    // Written so that NaN is searched again.
-                    if !(later >= to) {
-                        left.push([if later > from { later } else { from }, to]);
-                    }
-                    if !(earlier <= from) {
-                        left.push([from, if earlier < to { earlier } else { to }]);
-                    }
+                    push_rest(&mut left, [from, at, to], [back, forth]);
                 }
             }
             at = f64::NAN;
         }
         let bodies = pair.body_indices(self.cell.parts());
-        if let (Goal::AnyContact, Some(at)) = (self.goal, undecided_at) {
+        let is_known = self.undecided.contains(open.segment, bodies);
+        let earliest = self.leave_undecided(&pair, open, &left);
+        self.unsearched = left;
+        if let (Goal::AnyContact, Some(at), false) = (self.goal, undecided_at, is_known) {
             // A contact of some pair ends the search. Intervals take the engine longer than points.
-            if !self.undecided.contains(open.segment, bodies) {
-                step = self.check_nonconvex_candidate(&pair, bodies, at)?;
-            }
+            step = self.check_nonconvex_candidate(&pair, bodies, at)?;
         }
+        Ok(match step {
+            Continue(()) => Continue(earliest),
+            Break(()) => Break(()),
+        })
+    }
+
+    /// Adds intervals of a pair to the undecided ones. Returns where the earliest of them begins.
+    fn leave_undecided(&mut self, pair: &PartPair, open: &OpenInterval, left: &[[f64; 2]]) -> f64 {
+        let bodies = pair.body_indices(self.cell.parts());
         // Written so that NaN stays undecided. An interval without length is measured.
         let undecided = left.iter().filter(|[from, to]| from != to);
         let undecided = undecided.map(|&[from, to]| UndecidedInterval {
             segment: open.segment,
             bodies,
-            pair,
+            pair: *pair,
             from,
             to,
             gap: open.gap,
         });
-        let earliest = self.undecided.extend(undecided);
-        self.unsearched = left;
-        Ok(match step {
-            Continue(()) => Continue(earliest),
-            Break(()) => Break(()),
-        })
+        self.undecided.extend(undecided)
     }
 
     fn motion_of_pair(&self, open: &OpenInterval) -> PairMotion {
@@ -323,6 +320,19 @@ impl PlacedPair<'_> {
             |direction| b.extremal_corner(direction).1,
         );
         of_first + of_second
+    }
+}
+
+/// Pushes what is left of an interval if a pair is free for some time before and after the point `at`.
+fn push_rest(left: &mut Vec<[f64; 2]>, [from, at, to]: [f64; 3], [back, forth]: [f64; 2]) {
+    let later = (at + forth).next_down();
+    let earlier = (at - back).next_up();
+    // Written so that NaN is searched again.
+    if !(later >= to) {
+        left.push([if later > from { later } else { from }, to]);
+    }
+    if !(earlier <= from) {
+        left.push([from, if earlier < to { earlier } else { to }]);
     }
 }
 
