@@ -7,6 +7,7 @@
 use super::BallTest;
 use super::error::{ENLARGED, ErrorSources, LaneErrors};
 use super::sine::MAX_ANGLE;
+use crate::kinematics::MovingJoint;
 use crate::kinematics::joint_arms::JointMotion;
 use crate::path::joint_path::JointPath;
 use crate::path::lanes::{LANES, Lanes};
@@ -118,10 +119,7 @@ impl BallTest<'_> {
         }
         let (starts, changes) = path.starts_and_changes(segment);
         for (k, joint) in self.cell.kinematics().joints().iter().enumerate() {
-            let mut center = starts[k] + middle * changes[k];
-            if !joint.is_prismatic {
-                center -= TAU * (center / TAU).round();
-            }
+            let center = near_zero(joint, starts[k] + middle * changes[k]);
             for (lane, position) in self.positions[k].iter_mut().enumerate() {
                 *position = (center + changes[k] * offset(lane)) as f32;
             }
@@ -138,11 +136,8 @@ impl BallTest<'_> {
     ) {
         for (k, joint) in self.cell.kinematics().joints().iter().enumerate() {
             for lane in 0..LANES {
-                let [mut position, rate] = path.position_and_rate(segment, midpoint(lane), k);
-                if !joint.is_prismatic {
-                    position -= TAU * (position / TAU).round();
-                }
-                self.positions[k][lane] = position as f32;
+                let [position, rate] = path.position_and_rate(segment, midpoint(lane), k);
+                self.positions[k][lane] = near_zero(joint, position) as f32;
                 self.rates[k][lane] = rate as f32;
             }
         }
@@ -164,11 +159,8 @@ impl BallTest<'_> {
         for (k, (joint, magnitude)) in joints.zip(path.magnitudes()).enumerate() {
             let mut largest_rate = 0.0;
             for (lane, ends) in self.ends[k].windows(2).enumerate() {
-                let (mut position, rate) = (0.5 * (ends[0] + ends[1]), ends[1] - ends[0]);
-                if !joint.is_prismatic {
-                    position -= TAU * (position / TAU).round();
-                }
-                self.positions[k][lane] = position as f32;
+                let (middle, rate) = (0.5 * (ends[0] + ends[1]), ends[1] - ends[0]);
+                self.positions[k][lane] = near_zero(joint, middle) as f32;
                 self.rates[k][lane] = rate as f32;
                 largest_rate = greater(largest_rate, rate.abs());
             }
@@ -213,5 +205,15 @@ impl BallTest<'_> {
                 waypoint += 1.0;
             }
         }
+    }
+}
+
+/// Returns the position of a joint, reduced by whole turns if it is an angle.
+#[inline(always)]
+fn near_zero(joint: &MovingJoint, position: f64) -> f64 {
+    if joint.is_prismatic {
+        position
+    } else {
+        position - TAU * (position / TAU).round()
     }
 }

@@ -146,12 +146,11 @@ impl PathSearch<'_> {
                 within = f64::INFINITY;
             }
         }
-        let by_gap = |a: &&TestedPair, b: &&TestedPair| {
-            let key = |pair: &TestedPair| (!pair.is_exact(), pair.least_gap);
-            let ((a_is_box, a_gap), (b_is_box, b_gap)) = (key(a), key(b));
-            a_is_box.cmp(&b_is_box).then(a_gap.total_cmp(&b_gap))
+        let nearest_first = |a: &&TestedPair, b: &&TestedPair| {
+            let by_gap = a.least_gap.total_cmp(&b.least_gap);
+            b.is_exact().cmp(&a.is_exact()).then(by_gap)
         };
-        let Some(nearest) = self.ball_test.open_pairs().min_by(by_gap) else {
+        let Some(nearest) = self.ball_test.open_pairs().min_by(nearest_first) else {
             return Ok(Continue(()));
         };
         let (pair, at) = (nearest.pair, lanes.middle(usize::from(nearest.nearest)));
